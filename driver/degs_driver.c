@@ -52,6 +52,13 @@ void degs_set_camera(const degs_device *device, const degs_camera *camera) {
     write_doubles(device, DEGS_REG_POSITION, camera->position, 3);
 }
 
+void degs_set_window(const degs_device *device, const degs_window *window) {
+    write_doubles(device, DEGS_REG_SHIFT_X, &window->shift_x, 1);
+    write_doubles(device, DEGS_REG_SHIFT_Y, &window->shift_y, 1);
+    write_word(device, DEGS_REG_ORIGIN_X, window->origin_x);
+    write_word(device, DEGS_REG_ORIGIN_Y, window->origin_y);
+}
+
 void degs_set_workspace(const degs_device *device, uint64_t address, uint64_t bytes) {
     write_pair(device, DEGS_REG_WORKSPACE, address);
     write_pair(device, DEGS_REG_WORKSPACE_BYTES, bytes);

@@ -39,6 +39,13 @@ typedef struct degs_camera {
     double position[3];      /* in world space */
 } degs_camera;
 
+/* Where an image lies in its raster (docs/cameras.md), whose middle is the principal point; all 0 for an image that is
+ * its raster. */
+typedef struct degs_window {
+    double shift_x, shift_y;     /* px, of the principal point from the middle of the image, right and down */
+    uint32_t origin_x, origin_y; /* px, the first pixel of the image; more is taken if the shift needs it */
+} degs_window;
+
 /* Of the last frame, but for `frames`. */
 typedef struct degs_counters {
     uint64_t cycles, load_cycles;
@@ -53,6 +60,8 @@ int degs_probe(const degs_device *device);
 
 void degs_set_scene(const degs_device *device, const degs_scene *scene);
 void degs_set_camera(const degs_device *device, const degs_camera *camera);
+/* For cameras that are not centred; the setting stays until the next one or a reset. */
+void degs_set_window(const degs_device *device, const degs_window *window);
 /* Memory for splat records and lists; degs_workspace_needed says after a frame how many bytes it took. */
 void degs_set_workspace(const degs_device *device, uint64_t address, uint64_t bytes);
 /* format: DEGS_FORMAT_RGBA8 or DEGS_FORMAT_RGBA16F. */

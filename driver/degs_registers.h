@@ -6,7 +6,7 @@
 
 #define DEGS_REGISTER_BYTES             0x138u /* size of the register window */
 #define DEGS_ID_VALUE                   0x53476544u /* what ID holds */
-#define DEGS_VERSION_VALUE              0x00010001u /* what VERSION holds */
+#define DEGS_VERSION_VALUE              0x00010002u /* what VERSION holds */
 #define DEGS_BASE_ALIGNMENT             64u /* of all addresses, bytes */
 
 #define DEGS_REG_ID                     0x000u /* the bytes "DeGS" */
@@ -83,6 +83,14 @@
 #define DEGS_REG_AXES                   0x070u /* 18 words: 9 doubles: view axes x (right), y (down), z (forward) in world space */
 
 #define DEGS_REG_POSITION               0x0B8u /* 6 words: 3 doubles: camera centre in world space */
+
+#define DEGS_REG_SHIFT_X                0x0D0u /* 2 words: double, pixels from the middle of the image to the right, where the principal point is */
+
+#define DEGS_REG_SHIFT_Y                0x0D8u /* 2 words: double, the same downwards */
+
+#define DEGS_REG_ORIGIN_X               0x0E0u /* first column of the image in its raster, whose tiles begin at column 0; at least -2 SHIFT_X, rounded down, is taken */
+
+#define DEGS_REG_ORIGIN_Y               0x0E4u /* the same of its first row */
 
 #define DEGS_REG_CYCLES                 0x100u /* 2 words: of the last frame: scene loaded to last pixel in memory */
 

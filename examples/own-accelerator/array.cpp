@@ -69,8 +69,8 @@ bool Array::start_tile() {
         blocked_ += self_.local() - ready;
     }
     tile_ = &job_.tiles[number_];
-    live_ = tile_->width * tile_->height;
-    live_in_row_.assign(live_in_row_.size(), tile_->width);
+    live_ = static_cast<int>(tile_->pixels());
+    live_in_row_.assign(live_in_row_.size(), tile_->drawn_columns().size());
     reported_ = false;
     return true;
 }
@@ -93,7 +93,8 @@ void Array::sweep(std::uint32_t splat) {
     const Cycle begin = self_.local();
     PixelTest test;
     test.splat = splat;
-    test.mask = bits_between(0, tile_->width);
+    const PixelRange columns = tile_->drawn_columns();
+    test.mask = bits_between(columns.first, columns.last + 1);
     test.x = tile_->x;
     test.context = context_;
     // Once a tile is reported, its context may hold another: not even the rest of the splat is

@@ -66,6 +66,7 @@ struct Processor : sc_core::sc_module {
     sc_core::sc_in<bool> irq{"irq"};
     degs_scene scene{};
     degs_camera camera{};
+    degs_window window{};
     std::uint64_t frame_buffer = 0, workspace = 0, workspace_bytes = 0;
     degs_counters counters{};
     std::uint32_t error = DEGS_ERROR_CODE_NONE;
@@ -94,6 +95,7 @@ struct Processor : sc_core::sc_module {
         const degs_device device{this, &read, &write};
         degs_set_scene(&device, &scene);
         degs_set_camera(&device, &camera);
+        degs_set_window(&device, &window);
         degs_set_frame_buffer(&device, frame_buffer, DEGS_FORMAT_RGBA8);
         degs_set_workspace(&device, workspace, workspace_bytes);
         degs_start(&device, DEGS_IRQ_ENABLE_DONE | DEGS_IRQ_ENABLE_ERROR);
@@ -133,6 +135,8 @@ int render(const char* design_file, const char* scene_file, int position) {
     cpu.camera.height = static_cast<std::uint32_t>(view.height);
     cpu.camera.focal_x = view.focal_x;
     cpu.camera.focal_y = view.focal_y;
+    cpu.window = {view.shift_x, view.shift_y, static_cast<std::uint32_t>(view.origin_x),
+                  static_cast<std::uint32_t>(view.origin_y)};
     for (int i = 0; i < 9; ++i) {
         cpu.camera.axes[i] = view.axes[i];
         cpu.camera.position[i % 3] = view.position[i % 3];

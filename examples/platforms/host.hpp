@@ -122,6 +122,8 @@ private:
         camera.height = std::uint32_t(view.height);
         camera.focal_x = view.focal_x;
         camera.focal_y = view.focal_y;
+        const degs_window window{view.shift_x, view.shift_y, std::uint32_t(view.origin_x),
+                                 std::uint32_t(view.origin_y)};
         std::copy_n(view.axes, 9, camera.axes);
         std::copy_n(view.position, 3, camera.position);
         std::vector<unsigned char> pixels(std::size_t(view.width) * std::size_t(view.height) * 4);
@@ -129,6 +131,7 @@ private:
 
         degs_set_scene(&device, &scene);
         degs_set_camera(&device, &camera);
+        degs_set_window(&device, &window);
         degs_set_frame_buffer(&device, frame, DEGS_FORMAT_RGBA8);
         degs_set_workspace(&device, reserve(kWorkspaceBytes), kWorkspaceBytes);
         degs_start(&device, DEGS_IRQ_ENABLE_DONE | DEGS_IRQ_ENABLE_ERROR);

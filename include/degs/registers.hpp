@@ -31,6 +31,10 @@ enum class Register : std::uint32_t {
     FocalY = 0x068,
     Axes = 0x070,
     Position = 0x0B8,
+    ShiftX = 0x0D0,
+    ShiftY = 0x0D8,
+    OriginX = 0x0E0,
+    OriginY = 0x0E4,
     Cycles = 0x100,
     LoadCycles = 0x108,
     BytesRead = 0x110,
@@ -42,7 +46,7 @@ enum class Register : std::uint32_t {
 };
 constexpr std::uint32_t kRegisterBytes = 0x138;
 constexpr std::uint32_t kAcceleratorId = 0x53476544; ///< "DeGS" as bytes
-constexpr std::uint32_t kAcceleratorVersion = 0x00010001;
+constexpr std::uint32_t kAcceleratorVersion = 0x00010002;
 
 // Bits of Control, Status, and of IrqEnable and IrqStatus.
 constexpr std::uint32_t kControlStart = 1U << 0U;
@@ -70,7 +74,8 @@ enum class AcceleratorError : std::uint32_t {
     BadFormat = 4,      ///< no FrameFormat
     Misaligned = 5,     ///< a base is not a multiple of kBaseAlignment
     Overlap = 6,        ///< two regions overlap, or one passes the end of the address space
-    BadCamera = 7,      ///< not finite, focal length not positive, or axes not orthonormal
+    BadCamera = 7,      ///< not finite, focal length not positive, axes not orthonormal, or the
+                        ///< image outside its raster
     SmallWorkspace = 8, ///< WorkspaceNeeded holds the bytes that it takes
     LoadError = 9,      ///< memory refused a read while the scene was loaded
     BusError = 10,      ///< memory refused an access while the frame was rendered

@@ -9,7 +9,7 @@ namespace degs {
 
 /// A scene as the bytes that an accelerator reads from a platform's memory, with its views.
 struct MemoryScene {
-    /// A pinhole camera: what the registers Width to Position take. Pixels are square units of the
+    /// A pinhole camera: what the registers Width to OriginY take. Pixels are square units of the
     /// focal lengths; +x of a camera is right, +y down, +z forward.
     struct View {
         std::string name;
@@ -17,6 +17,8 @@ struct MemoryScene {
         double focal_x = 0, focal_y = 0;              ///< px
         double axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}; ///< the camera's x, y, z in world space
         double position[3] = {0, 0, 0};               ///< in world space
+        double shift_x = 0, shift_y = 0; ///< of the principal point from the image's middle, px
+        int origin_x = 0, origin_y = 0;  ///< of the image in its raster, px
     };
     std::vector<unsigned char> geometry; ///< 11 floats per Gaussian, see docs/accelerator.md
     std::vector<unsigned char> sh;       ///< 3 (degree + 1)^2 floats per Gaussian

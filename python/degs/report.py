@@ -141,10 +141,10 @@ class Report(Node):
 
 def run(design: Union[Design, PathLike], scene: Optional[PathLike] = None, *, camera: Optional[int] = None,
         camera_file: Optional[PathLike] = None, width: Optional[int] = None, height: Optional[int] = None,
-        resolution: Optional[str] = None, frames: Optional[int] = None, path_step: Optional[float] = None,
-        fidelity: Optional[str] = None, within: Optional[str] = None, seed: Optional[int] = None,
-        memory: Optional[PathLike] = None, what_if: Union[str, Sequence[str]] = (), reference: bool = True,
-        cache: bool = True, array_only: bool = False, trace: Optional[PathLike] = None,
+        resolution: Optional[str] = None, crop: Optional[str] = None, frames: Optional[int] = None,
+        path_step: Optional[float] = None, fidelity: Optional[str] = None, within: Optional[str] = None,
+        seed: Optional[int] = None, memory: Optional[PathLike] = None, what_if: Union[str, Sequence[str]] = (),
+        reference: bool = True, cache: bool = True, array_only: bool = False, trace: Optional[PathLike] = None,
         trace_step: Optional[int] = None, maps: Optional[PathLike] = None, memory_trace: Optional[PathLike] = None,
         block_log: Optional[Sequence[str]] = None, workload: Optional[PathLike] = None,
         keys: Optional[Mapping[str, Any]] = None, out: Optional[PathLike] = None, **top_keys: Any) -> Report:
@@ -157,8 +157,8 @@ def run(design: Union[Design, PathLike], scene: Optional[PathLike] = None, *, ca
     program's sentence."""
     chosen = (design if isinstance(design, Design) else Design(design)).with_(keys, **top_keys)
     options = options_of(scene=scene, camera=camera, camera_file=camera_file, width=width, height=height,
-                         resolution=resolution, frames=frames, path_step=path_step, fidelity=fidelity, within=within,
-                         seed=seed, memory=memory, trace=trace, trace_step=trace_step, maps=maps,
+                         resolution=resolution, crop=crop, frames=frames, path_step=path_step, fidelity=fidelity,
+                         within=within, seed=seed, memory=memory, trace=trace, trace_step=trace_step, maps=maps,
                          memory_trace=memory_trace, what_if=what_if, no_reference=not reference, no_cache=not cache,
                          array_only=array_only, workload=workload)
     if block_log is not None:

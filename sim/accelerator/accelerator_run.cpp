@@ -29,8 +29,8 @@ void collect_recording(AcceleratorResult& result, RenderJob& job, Timeline* time
     const std::vector<TileActivity>& activity = job.recorder->tiles();
     for (std::size_t t = 0; t < job.tiles.size(); ++t) {
         const JobTile& tile = job.tiles[t];
-        result.tile_records.push_back({tile.frame, tile.x, tile.y, tile.width, tile.height,
-                                       tile.count,
+        result.tile_records.push_back({tile.frame, tile.x, tile.y, tile.drawn_columns().size(),
+                                       tile.drawn_rows().size(), tile.count,
                                        t < activity.size() ? activity[t] : TileActivity()});
     }
     if (timeline != nullptr) {

@@ -59,10 +59,11 @@ WorstPixel explain(Frame& frame, const ImageDifference& difference, const Number
         return worst;
     }
     const FrameWorkload& own = frame.in(set);
+    const glm::ivec2 pixel = own.camera.origin + glm::ivec2(worst.x, worst.y);
     const PixelBlame blame =
         &own == &frame.workload
-            ? blame_pixel(own, worst.x, worst.y, set, StopRule::Refuse)
-            : blame_pixel(frame.workload, own, worst.x, worst.y, set, StopRule::Refuse);
+            ? blame_pixel(own, pixel.x, pixel.y, set, StopRule::Refuse)
+            : blame_pixel(frame.workload, own, pixel.x, pixel.y, set, StopRule::Refuse);
     worst.error = blame.error;
     worst.gaussian = blame.id;
     worst.operation = blame.operation;

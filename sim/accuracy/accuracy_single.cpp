@@ -93,7 +93,7 @@ void measure_view_splats(const SingleGaussianRequest& request,
     kind.resolution = std::to_string(camera.width) + "x" + std::to_string(camera.height);
     const auto sampler = [&](std::mt19937_64& random) {
         const ProjectedSplat& splat = splats[random() % splats.size()];
-        return Sample{splat, window_of(splat, camera.width, camera.height)};
+        return Sample{splat, window_of(splat, camera.window())};
     };
     measure_kind(request, paths, kind, sampler, rows);
 }

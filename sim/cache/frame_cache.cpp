@@ -53,7 +53,7 @@ std::uint64_t most_bytes() {
 template <class Stream, class Value>
 void pass_camera(Stream& stream, Value& camera) {
     stream.pass(camera.id, camera.name, camera.width, camera.height, camera.fx, camera.fy,
-                camera.position, camera.camera_to_world);
+                camera.shift, camera.origin, camera.position, camera.camera_to_world);
 }
 
 template <class Stream, class Value>

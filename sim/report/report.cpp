@@ -232,14 +232,21 @@ ordered_json camera_json(const Camera& camera) {
         rotation.push_back({camera.camera_to_world[0][row], camera.camera_to_world[1][row],
                             camera.camera_to_world[2][row]});
     }
-    return {{"id", camera.id},
-            {"img_name", camera.name},
-            {"width", camera.width},
-            {"height", camera.height},
-            {"position", {camera.position.x, camera.position.y, camera.position.z}},
-            {"rotation", std::move(rotation)},
-            {"fx", camera.fx},
-            {"fy", camera.fy}};
+    ordered_json json = {{"id", camera.id},
+                         {"img_name", camera.name},
+                         {"width", camera.width},
+                         {"height", camera.height},
+                         {"position", {camera.position.x, camera.position.y, camera.position.z}},
+                         {"rotation", std::move(rotation)},
+                         {"fx", camera.fx},
+                         {"fy", camera.fy}};
+    if (!camera.is_centred()) {
+        const glm::dvec2 point = camera.principal_point();
+        json["cx"] = point.x;
+        json["cy"] = point.y;
+        json["raster_origin"] = {camera.origin.x, camera.origin.y};
+    }
+    return json;
 }
 
 ordered_json workload_json(const WorkloadFacts& workload, const SceneFacts& scene) {

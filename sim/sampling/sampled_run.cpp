@@ -21,13 +21,14 @@
 namespace degs::sim {
 namespace {
 
-void hatch(Image& image, const JobTile& tile) {
+void hatch(Image& image, const Camera& camera, const JobTile& tile) {
     constexpr int kApart = 8;
     constexpr std::array<double, 3> kLine{0.5, 0.5, 0.5}, kGround{0.1, 0.1, 0.1};
-    for (int y = tile.y; y < tile.y + tile.height; ++y) {
-        for (int x = tile.x; x < tile.x + tile.width; ++x) {
+    const PixelRange rows = tile.rows(), columns = tile.columns();
+    for (int y = rows.first; y <= rows.last; ++y) {
+        for (int x = columns.first; x <= columns.last; ++x) {
             const bool line = (x + y) % kApart == 0;
-            image.put(image.at(x, y), (line ? kLine : kGround).data(), 1.0, 0);
+            image.put(camera.place_of(x, y), (line ? kLine : kGround).data(), 1.0, 0);
         }
     }
 }
@@ -89,7 +90,7 @@ public:
         }
         for (const JobTile& tile : all_) {
             if (drawn.count({tile.x, tile.y}) == 0) {
-                hatch(job_.images.front(), tile);
+                hatch(job_.images.front(), job_.frame_of(tile).camera, tile);
             }
         }
         return {std::make_move_iterator(job_.images.begin()),

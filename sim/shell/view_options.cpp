@@ -73,6 +73,11 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
                            "image height in pixels; alone it scales the view, with --width it "
                            "crops or extends it");
     add_resolution_option(command, request.resolution)->excludes(width)->excludes(height);
+    command
+        .add_option("--crop", request.crop,
+                    "part of the image that is rendered: W x H pixels from column X and row Y on; "
+                    "its pixels are those of the whole image")
+        ->type_name("X,Y,WxH");
 }
 
 void add_view_or_workload_options(CLI::App& command, ViewRequest& request) {
@@ -91,8 +96,8 @@ void add_view_or_workload_options(CLI::App& command, ViewRequest& request) {
                 },
                 "frame that 'degs workload pack' has written, instead of a scene and a view")
             ->type_name("FILE");
-    for (const char* option :
-         {"--scene", "--camera-file", "--camera", "--width", "--height", "--resolution"}) {
+    for (const char* option : {"--scene", "--camera-file", "--camera", "--width", "--height",
+                               "--resolution", "--crop"}) {
         workload->excludes(command.get_option(option));
     }
 }

@@ -13,7 +13,7 @@
 
 namespace degs::sim {
 
-/// Adds --scene, --camera-file, --camera and the options for the image size.
+/// Adds --scene, --camera-file, --camera and the options for the image size and a part of it.
 void add_view_options(CLI::App& command, ViewRequest& request);
 
 /// Adds the same options and --workload, a file that takes the place of all of them.

@@ -12,10 +12,6 @@ bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-int tiles_along(int pixels, int tile) {
-    return (pixels + tile - 1) / tile;
-}
-
 /// Every list is a range of the entries, and its splats are there, near to far.
 bool has_sound_lists(const FrameWorkload& frame) {
     const std::vector<std::uint64_t>& begin = frame.tile_begin;
@@ -79,7 +75,8 @@ bool is_sound(const Camera& camera) {
     const glm::dmat3 product = glm::transpose(camera.camera_to_world) * camera.camera_to_world;
     bool good = camera.width >= 1 && camera.width <= kMostCameraSide && camera.height >= 1 &&
                 camera.height <= kMostCameraSide && camera.fx > 0 && std::isfinite(camera.fx) &&
-                camera.fy > 0 && std::isfinite(camera.fy) && is_finite(camera.position);
+                camera.fy > 0 && std::isfinite(camera.fy) && is_finite(camera.position) &&
+                camera.has_sound_raster();
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 3; ++row) {
             const double wanted = row == column ? 1 : 0;
@@ -111,10 +108,9 @@ bool is_sound(const ProjectedSplat& s, const SplatLimits& limits) {
 }
 
 bool is_sound(const FrameWorkload& frame) {
-    return frame.tile_size > 0 &&
-           frame.tiles_x == tiles_along(frame.camera.width, frame.tile_size) &&
-           frame.tiles_y == tiles_along(frame.camera.height, frame.tile_size) &&
-           frame.sh_degree >= 0 && frame.sh_degree <= kMostShDegree &&
+    return frame.tile_size > 0 && frame.tiles_x == frame.grid().tiles_x() &&
+           frame.tiles_y == frame.grid().tiles_y() && frame.sh_degree >= 0 &&
+           frame.sh_degree <= kMostShDegree &&
            adds_up(frame.culled, frame.splats.size(), frame.gaussians) && has_sound_splats(frame) &&
            has_sound_lists(frame);
 }

@@ -96,6 +96,28 @@ int resolution_height(const std::string& name) {
                      ", and --width and --height for any other size.");
 }
 
+PixelBox crop_of(const std::string& text) {
+    std::array<int, 4> numbers{}; // X, Y, W, H
+    const std::string behind = ",,x";
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    bool good = true;
+    for (std::size_t i = 0; i < numbers.size() && good; ++i) {
+        const auto [rest, error] = std::from_chars(at, end, numbers[i]);
+        const bool last = i + 1 == numbers.size();
+        good = error == std::errc() && numbers[i] >= (i < 2 ? 0 : 1) &&
+               numbers[i] <= kMostRasterSide && (last ? rest == end : rest != end);
+        good = good && (last || *rest == behind[i]);
+        at = rest + 1;
+    }
+    if (!good) {
+        throw InputError("--crop is '" + text +
+                         "', but must be X,Y,WxH: the first column and row, and the width and "
+                         "height in pixels of the part of the image, as in 64,32,320x240.");
+    }
+    return {numbers[0], numbers[1], numbers[0] + numbers[2] - 1, numbers[1] + numbers[3] - 1};
+}
+
 Camera resize(const Camera& camera, std::optional<int> width, std::optional<int> height) {
     check_positive("--width", width);
     check_positive("--height", height);
@@ -117,6 +139,9 @@ void check_view(const ViewRequest& request) {
     if (!request.resolution.empty()) {
         resolution_height(request.resolution);
     }
+    if (!request.crop.empty()) {
+        crop_of(request.crop);
+    }
     if (request.scene.empty()) {
         throw InputError("The scene has an empty name; a file or synthetic:NAME is needed.");
     }
@@ -127,7 +152,17 @@ void check_view(const ViewRequest& request) {
 Camera camera_of(const ViewRequest& request, const Scene& scene) {
     const std::optional<int> height =
         request.resolution.empty() ? request.height : resolution_height(request.resolution);
-    return resize(select_camera(scene, request.camera), request.width, height);
+    const Camera whole = resize(select_camera(scene, request.camera), request.width, height);
+    if (request.crop.empty()) {
+        return whole;
+    }
+    const PixelBox part = crop_of(request.crop);
+    if (part.x1 >= whole.width || part.y1 >= whole.height) {
+        throw InputError("--crop is '" + request.crop + "', which leaves the image of " +
+                         std::to_string(whole.width) + " x " + std::to_string(whole.height) +
+                         " pixels.");
+    }
+    return whole.cropped(part);
 }
 
 View load_view(const ViewRequest& request) {

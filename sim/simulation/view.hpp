@@ -18,6 +18,7 @@ struct ViewRequest {
     int camera = 0;
     std::optional<int> width, height;
     std::string resolution; ///< a name of resolution_names(), empty: width and height decide
+    std::string crop;       ///< see crop_of(); empty: all of the view
     std::string workload;   ///< a workload file instead of all of the above; empty: none
 };
 
@@ -52,11 +53,15 @@ struct PathRequest {
 /// Throws InputError, which names the option, for a number of pixels below 1.
 void check_positive(const char* option, std::optional<int> value);
 
-/// Loads the scene and resizes the camera. Throws InputError.
+/// The pixels that "X,Y,WxH" names: W columns from X on, H rows from Y on, from the upper left
+/// corner. Throws InputError for anything else, and for less than a pixel.
+PixelBox crop_of(const std::string& text);
+
+/// Loads the scene, resizes the camera and crops it. Throws InputError.
 View load_view(const ViewRequest& request);
 /// What can be refused before the scene is loaded. Throws InputError.
 void check_view(const ViewRequest& request);
-/// The camera of the view in its size; the scene needs no Gaussians. Throws InputError.
+/// The camera of the view in its size, cropped; the scene needs no Gaussians. Throws InputError.
 Camera camera_of(const ViewRequest& request, const Scene& scene);
 
 /// Width alone or height alone scales the view; both give the image that size at the scale of the

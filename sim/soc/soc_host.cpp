@@ -95,6 +95,12 @@ void SocHost::load_scene(const GaussianCloud& cloud) {
 }
 
 void SocHost::set_camera(const Camera& camera) {
+    if (!camera.is_centred() || !camera_.is_centred()) {
+        const degs_window window{camera.shift.x, camera.shift.y,
+                                 static_cast<std::uint32_t>(camera.origin.x),
+                                 static_cast<std::uint32_t>(camera.origin.y)};
+        degs_set_window(&device_, &window);
+    }
     camera_ = camera;
     degs_camera view{};
     view.width = static_cast<std::uint32_t>(camera.width);

@@ -129,17 +129,14 @@ Image with_legend(const Image& picture, const TileMap& map, const std::string& s
 } // namespace
 
 TileMaps tile_maps_of(const RunResult& result) {
-    TileMaps maps;
-    maps.tile_size = result.workload.tile_size;
-    maps.tiles_x = (result.camera.width + maps.tile_size - 1) / maps.tile_size;
-    maps.tiles_y = (result.camera.height + maps.tile_size - 1) / maps.tile_size;
-    const std::size_t tiles = std::size_t{1} * maps.tiles_x * maps.tiles_y;
+    TileMaps maps{TileGrid(result.camera, result.workload.tile_size), {}};
+    const std::size_t tiles = std::size_t{1} * maps.grid.tiles_x() * maps.grid.tiles_y();
     const auto add = [&](const std::string& name, const std::string& title, const auto& value) {
         TileMap map{name, title, std::vector<float>(tiles, static_cast<float>(kNone))};
         for (const TileRecord& tile : result.accelerator.tile_records) {
             if (tile.frame == 0) {
-                const int place = tile.y / maps.tile_size * maps.tiles_x + tile.x / maps.tile_size;
-                map.values[place] = static_cast<float>(value(tile));
+                map.values[maps.grid.tile_of_pixel(tile.x, tile.y)] =
+                    static_cast<float>(value(tile));
             }
         }
         maps.maps.push_back(std::move(map));
@@ -158,13 +155,14 @@ TileMaps tile_maps_of(const RunResult& result) {
 
 Image map_picture(const TileMaps& maps, const TileMap& map, const std::string& subtitle) {
     constexpr int kUsualWidth = 960, kLargestTile = 64;
-    const int side = std::clamp(kUsualWidth / maps.tiles_x, 1, kLargestTile);
+    const int columns = maps.grid.tiles_x(), rows = maps.grid.tiles_y();
+    const int side = std::clamp(kUsualWidth / columns, 1, kLargestTile);
     const double largest = largest_of(map);
-    Raster picture(maps.tiles_x * side, maps.tiles_y * side);
-    for (int row = 0; row < maps.tiles_y; ++row) {
-        for (int column = 0; column < maps.tiles_x; ++column) {
+    Raster picture(columns * side, rows * side);
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
             picture.rectangle(column * side, row * side, side, side,
-                              colour_of(map.values[row * maps.tiles_x + column], largest));
+                              colour_of(map.values[row * columns + column], largest));
         }
     }
     return with_legend(picture.image(), map, subtitle, "no splat listed");
@@ -175,10 +173,11 @@ Image map_over(const TileMaps& maps, const TileMap& map, const std::string& subt
                const Image& image) {
     constexpr double kHeat = 0.65;
     const double largest = largest_of(map);
+    const PixelBox& first = maps.grid.image();
     Image over = image;
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-            const double value = map.values[y / maps.tile_size * maps.tiles_x + x / maps.tile_size];
+            const double value = map.values[maps.grid.tile_of_pixel(first.x0 + x, first.y0 + y)];
             const std::size_t pixel = 3 * image.at(x, y);
             const double grey = std::clamp(
                 (image.rgb[pixel] + image.rgb[pixel + 1] + image.rgb[pixel + 2]) / 3.0, 0.0, 1.0);
@@ -212,7 +211,7 @@ void write_tile_maps(const RunResult& result, const OutputFolder& out) {
     const AcceleratorResult& run = result.accelerator;
     const std::string subtitle = run.name + " · " + result.scene.name + " · " +
                                  size_words(result.camera) + " · tiles of " +
-                                 std::to_string(maps.tile_size) + " px";
+                                 std::to_string(maps.grid.tile_size()) + " px";
     std::vector<ExrLayer> layers;
     for (const TileMap& map : maps.maps) {
         write_png(map_picture(maps, map, subtitle), out.path(map.name + ".png"));
@@ -220,7 +219,7 @@ void write_tile_maps(const RunResult& result, const OutputFolder& out) {
                   out.path(map.name + "_over_image.png"));
         layers.push_back({map.name, map.values.data()});
     }
-    write_exr(layers, maps.tiles_x, maps.tiles_y, out.path(kLayers));
+    write_exr(layers, maps.grid.tiles_x(), maps.grid.tiles_y(), out.path(kLayers));
 }
 
 std::vector<std::string> old_tile_maps(const OutputFolder& out,

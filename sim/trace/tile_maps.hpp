@@ -19,8 +19,7 @@ struct TileMap {
 };
 
 struct TileMaps {
-    int tiles_x = 0, tiles_y = 0;
-    int tile_size = 0; ///< px
+    TileGrid grid;
     std::vector<TileMap> maps;
 };
 

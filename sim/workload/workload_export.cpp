@@ -74,7 +74,7 @@ ExportedFile write_table(const OutputFolder& out, const std::string& name,
 }
 
 int number_of(const JobTile& tile, const FrameWorkload& frame) {
-    return tile.y / frame.tile_size * frame.tiles_x + tile.x / frame.tile_size;
+    return frame.grid().tile_of_pixel(tile.x, tile.y);
 }
 
 void fill_lists(const RenderJob& job, const FrameWorkload& frame, NumberTable& table) {
@@ -98,8 +98,8 @@ std::uint64_t fill_rows(const RenderJob& job, const FrameWorkload& frame, Number
             const PixelRange rows =
                 job.path->rows_in_columns(record, tile.x, end).within(tile.rows());
             for (int y = rows.first; y <= rows.last; ++y) {
-                const auto row = job.path->solve_row(record, y, tile.x, end, tile.y);
-                if (row) {
+                auto row = job.path->solve_row(record, y, tile.x, end, tile.y);
+                if (row && cut(*row, tile.drawn_columns())) {
                     table.add(number_of(tile, frame), splat, row->y, row->x0, row->length);
                     pixels += row->length;
                 }

@@ -37,6 +37,10 @@ void HeadReader::check(const std::string& name, bool good, const std::string& se
     }
 }
 
+bool HeadReader::has(const std::string& name) const {
+    return json_->is_object() && json_->contains(name);
+}
+
 HeadReader HeadReader::part(const std::string& name) const {
     return value(name);
 }

@@ -20,6 +20,7 @@ public:
     HeadReader(std::string path, std::string place, const nlohmann::json& json);
 
     // Members of an object.
+    bool has(const std::string& name) const;
     HeadReader part(const std::string& name) const;
     std::vector<HeadReader> list(const std::string& name) const;
     std::string text(const std::string& name) const;

@@ -237,7 +237,7 @@ FrameWorkload WorkloadFile::frame(const std::string& wanted_by, const Projection
                              ", which the workload does not hold; it holds frames of " +
                              (there.empty() ? "no kind" : there) + ".");
     }
-    const TileGrid grid{head_.camera.width, head_.camera.height, tile_size};
+    const TileGrid grid(head_.camera, tile_size);
     FrameWorkload frame;
     frame.camera = head_.camera;
     frame.projection = head_.projections[packed->projection].options;

@@ -90,14 +90,21 @@ ordered_json json_of(const Camera& camera) {
     for (int column = 0; column < 3; ++column) {
         columns.push_back({axes[column].x, axes[column].y, axes[column].z});
     }
-    return {{"id", camera.id},
-            {"img_name", camera.name},
-            {"width", camera.width},
-            {"height", camera.height},
-            {"fx", camera.fx},
-            {"fy", camera.fy},
-            {"position", {camera.position.x, camera.position.y, camera.position.z}},
-            {"axes", columns}};
+    ordered_json json = {{"id", camera.id},
+                         {"img_name", camera.name},
+                         {"width", camera.width},
+                         {"height", camera.height},
+                         {"fx", camera.fx},
+                         {"fy", camera.fy},
+                         {"position", {camera.position.x, camera.position.y, camera.position.z}},
+                         {"axes", columns}};
+    if (!camera.is_centred()) {
+        json["raster"] = {{"x", camera.origin.x},
+                          {"y", camera.origin.y},
+                          {"shift_x", camera.shift.x},
+                          {"shift_y", camera.shift.y}};
+    }
+    return json;
 }
 
 ordered_json json_of(const PackedProjection& projection) {
@@ -151,13 +158,21 @@ Camera camera_in(const HeadReader& in) {
     camera.height = in.number("height", 1, kMostCameraSide);
     camera.fx = in.real("fx", 0, kMostValue);
     camera.fy = in.real("fy", 0, kMostValue);
+    if (in.has("raster")) { // not of images that are their raster
+        const HeadReader raster = in.part("raster");
+        camera.origin = {raster.number("x", 0, kMostRasterSide),
+                         raster.number("y", 0, kMostRasterSide)};
+        camera.shift = {raster.real("shift_x", -kMostRasterSide, kMostRasterSide),
+                        raster.real("shift_y", -kMostRasterSide, kMostRasterSide)};
+    }
     camera.position = in.vector("position");
     const std::vector<HeadReader> axes = in.list("axes");
     in.check("axes", axes.size() == 3, "has " + std::to_string(axes.size()) + " of 3 axes");
     for (int column = 0; column < 3; ++column) {
         camera.camera_to_world[column] = axes[column].vector();
     }
-    in.check("axes", is_sound(camera), "or a focal length is not that of a camera that projects");
+    in.check("axes", is_sound(camera),
+             "or a focal length or the raster is not that of a camera that projects");
     in.check("width", camera.pixels() <= std::uint64_t{kMostPixels},
              "and the height make more than " + grouped(kMostPixels) + " pixels");
     return camera;
@@ -224,7 +239,7 @@ PackedFrame frame_in(const HeadReader& in, const WorkloadHead& head) {
     frame.entries = in.count("entries", 0, kMostCount);
     frame.blocks = blocks_in(in);
     in.check("blocks", !frame.blocks.empty(), "has no block, but the lengths of lists are needed");
-    const TileGrid grid{head.camera.width, head.camera.height, frame.tile_size};
+    const TileGrid grid(head.camera, frame.tile_size);
     const auto tiles = std::uint64_t{1} * grid.tiles_x() * grid.tiles_y();
     check_inflation(in, tiles * kBytesPerEntry, frame.blocks.front());
     check_inflation(in, frame.entries * kBytesPerEntry,

@@ -34,22 +34,25 @@ public:
 
     /// Blends the tile's list; false if it has none.
     bool blend(int column, int row);
-    /// Copies the tile to the image, whose first pixel is (x, y) of the frame.
+    /// Copies the tile to the image, whose first pixel is (x, y) of the raster.
     void write(Image& image, int x, int y);
 
 private:
     void blend_splat(std::uint32_t splat);
     void blend_span(const RowSpan& span);
     std::optional<RowSpan> span_of(std::uint32_t splat, int y) const {
+        std::optional<RowSpan> row;
         if (whole_) {
-            RowSpan row;
-            row.splat = splat;
-            row.y = inside_tile(y - box_.y0);
-            row.length = inside_tile(box_.x1 - box_.x0 + 1);
-            return row;
+            row.emplace();
+            row->splat = splat;
+            row->y = inside_tile(y - box_.y0);
+            row->length = inside_tile(box_.width());
+        } else {
+            row = parsing_ ? path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0)
+                           : row_of_box(*path_, splat, y, box_.x0, box_.x1 + 1, box_.y0);
         }
-        return parsing_ ? path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0)
-                        : row_of_box(*path_, splat, y, box_.x0, box_.x1 + 1, box_.y0);
+        const PixelRange drawn = PixelRange{drawn_.x0, drawn_.x1}.relative_to(box_.x0);
+        return row && cut(*row, drawn) ? row : std::nullopt;
     }
 
     const FrameWorkload& work_;
@@ -60,23 +63,25 @@ private:
     std::vector<int> live_in_row_; ///< pixels that have not ended
     std::vector<PixelValue> row_;
     int live_ = 0;
-    PixelBox box_; ///< the tile's pixels
+    PixelBox box_;   ///< the tile's pixels
+    PixelBox drawn_; ///< those in the image
 };
 
 bool DataPathRenderer::TileBlender::blend(int column, int row) {
-    const std::size_t tile = row * work_.tiles_x + column;
+    const int tile = row * work_.tiles_x + column;
     const std::uint32_t* splat = work_.tile_splats.data() + work_.tile_begin[tile];
     const std::uint32_t* end = work_.tile_splats.data() + work_.tile_begin[tile + 1];
     if (splat == end) {
         return false;
     }
-    box_ = pixels_of(work_, {column, row, column, row});
+    const TileGrid grid = work_.grid();
+    box_ = grid.pixels_of(tile);
+    drawn_ = grid.drawn_of(tile);
     for (int y = 0; y < work_.tile_size; ++y) {
         path_->begin_row(0, y);
     }
-    const int width = box_.x1 - box_.x0 + 1;
-    std::fill(live_in_row_.begin(), live_in_row_.end(), width);
-    live_ = width * (box_.y1 - box_.y0 + 1);
+    std::fill(live_in_row_.begin(), live_in_row_.end(), drawn_.width());
+    live_ = drawn_.width() * drawn_.height();
     for (; splat != end && live_ > 0; ++splat) {
         blend_splat(base_ + *splat);
     }
@@ -87,7 +92,7 @@ void DataPathRenderer::TileBlender::blend_splat(std::uint32_t splat) {
     const PixelRange met = whole_             ? PixelRange{box_.y0, box_.y1}
                            : rows_in_columns_ ? path_->rows_in_columns(splat, box_.x0, box_.x1 + 1)
                                               : path_->rows(splat);
-    const PixelRange rows = met.within({box_.y0, box_.y1});
+    const PixelRange rows = met.within({drawn_.y0, drawn_.y1});
     for (int y = rows.first; y <= rows.last; ++y) {
         if (live_in_row_[y - box_.y0] == 0) {
             continue;
@@ -121,11 +126,11 @@ void DataPathRenderer::TileBlender::blend_span(const RowSpan& span) {
 }
 
 void DataPathRenderer::TileBlender::write(Image& image, int x, int y) {
-    const int width = box_.x1 - box_.x0 + 1;
-    for (int row = box_.y0; row <= box_.y1; ++row) {
-        path_->read_row(0, row - box_.y0, width, row_.data());
-        std::size_t at = image.at(box_.x0 - x, row - y);
-        for (int column = 0; column < width; ++column, ++at) {
+    const PixelRange columns = PixelRange{drawn_.x0, drawn_.x1}.relative_to(box_.x0);
+    for (int row = drawn_.y0; row <= drawn_.y1; ++row) {
+        path_->read_row(0, row - box_.y0, columns.last + 1, row_.data());
+        std::size_t at = image.at(drawn_.x0 - x, row - y);
+        for (int column = columns.first; column <= columns.last; ++column, ++at) {
             const PixelValue& pixel = row_[column];
             image.put(at, pixel.rgb, pixel.transmittance, pixel.updates);
         }

@@ -14,15 +14,15 @@ namespace {
 struct TileList {
     const std::uint32_t* first;
     std::size_t length;
-    int x_begin, x_end; ///< columns of the tile inside the image
+    int x_begin, x_end; ///< columns of the tile
 
     TileList(const FrameWorkload& work, int x, int y) {
-        const int size = work.tile_size;
-        const std::size_t tile = y / size * work.tiles_x + x / size;
+        const TileGrid grid = work.grid();
+        const int tile = grid.tile_of_pixel(x, y);
         first = work.tile_splats.data() + work.tile_begin[tile];
         length = work.tile_begin[tile + 1] - work.tile_begin[tile];
-        x_begin = x / size * size;
-        x_end = std::min(x_begin + size, work.camera.width);
+        x_begin = grid.pixels_of(tile).x0;
+        x_end = grid.pixels_of(tile).x1 + 1;
     }
 };
 

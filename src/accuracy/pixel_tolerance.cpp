@@ -50,8 +50,8 @@ double of_height(const NumberSet& set) {
 
 /// ... from where a row's ellipse is, for the splat that suffers most.
 double of_place(const NumberSet& set, const FrameWorkload& work) {
-    const double width = work.camera.width;
-    const double height = work.camera.height;
+    const double width = work.camera.window().x1 + 1; // of the raster, up to the image's end
+    const double height = work.camera.window().y1 + 1;
     const bool coordinate = set.mean_form == Mean::Coordinate;
     double most = 0;
     for (const ProjectedSplat& s : work.splats) {
@@ -87,8 +87,7 @@ NumberTolerance tolerance_of(const NumberSet& set, const FrameWorkload& workload
 
 double pixel_tolerance(const FrameWorkload& workload, int x, int y,
                        const NumberTolerance& numbers) {
-    const int size = workload.tile_size;
-    const std::size_t tile = y / size * workload.tiles_x + x / size;
+    const int tile = workload.grid().tile_of_pixel(x, y);
     const double alpha_min = workload.projection.alpha_min;
     double left = 1; // transmittance
     double sum = 0;

@@ -26,8 +26,7 @@ struct Listed {
     std::vector<std::uint32_t> order; ///< Gaussians that the pixel is in, near to far
 
     Listed(const FrameWorkload& work, int x, int y, const PixelReplay& replay) {
-        const int size = work.tile_size;
-        const std::size_t tile = y / size * work.tiles_x + x / size;
+        const int tile = work.grid().tile_of_pixel(x, y);
         const std::uint64_t begin = work.tile_begin[tile];
         for (std::size_t i = 0; i < replay.alpha.size(); ++i) {
             const ProjectedSplat& splat = work.splats[work.tile_splats[begin + i]];

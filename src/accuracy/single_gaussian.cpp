@@ -135,12 +135,12 @@ ProjectedSplat random_window_splat(std::mt19937_64& random) {
     return window_splat(x, y, major, minor, angle, between(random, 0.1, 1));
 }
 
-WindowCorner window_of(const ProjectedSplat& splat, int width, int height) {
-    const auto corner = [](double mean, int size) {
-        const int last = (size - 1) / kAlphaWindow;
-        return kAlphaWindow * index_within(std::floor(mean / kAlphaWindow), 0, last);
+WindowCorner window_of(const ProjectedSplat& splat, const PixelBox& image) {
+    const auto corner = [](double mean, int first, int last) {
+        return kAlphaWindow * index_within(std::floor(mean / kAlphaWindow), first / kAlphaWindow,
+                                           last / kAlphaWindow);
     };
-    return {corner(splat.mu_x, width), corner(splat.mu_y, height)};
+    return {corner(splat.mu_x, image.x0, image.x1), corner(splat.mu_y, image.y0, image.y1)};
 }
 
 } // namespace degs

@@ -55,7 +55,8 @@ ProjectedSplat window_splat(double x, double y, double major, double minor, doub
 ProjectedSplat isotropic_splat(std::mt19937_64& random);
 /// sigma 1 .. 12 px, aspect up to 6, opacity 0.1 .. 1, the centre in the window's middle half.
 ProjectedSplat random_window_splat(std::mt19937_64& random);
-/// The window of an image's 32 x 32 grid that contains the splat's mean, or the nearest one.
-WindowCorner window_of(const ProjectedSplat& splat, int width, int height);
+/// The window of the raster's 32 x 32 grid that contains the splat's mean, or the nearest one with
+/// a pixel of the image.
+WindowCorner window_of(const ProjectedSplat& splat, const PixelBox& image);
 
 } // namespace degs

@@ -8,13 +8,16 @@ namespace degs {
 namespace {
 
 /// The pixels of a row; `inside` becomes false if there are some and not all lie in the image.
-PixelRange solve(const DataPath& path, std::uint32_t splat, int y, int width, bool& inside) {
-    const std::optional<RowSpan> span = path.solve_row(splat, y, 0, width, y);
+PixelRange solve(const DataPath& path, std::uint32_t splat, int y, const PixelRange& image,
+                 bool& inside) {
+    const std::optional<RowSpan> span = path.solve_row(splat, y, image.first, image.last + 1, y);
     if (!span) {
         return {};
     }
-    inside = inside && span->length >= 1 && span->x0 >= 0 && span->x0 + span->length <= width;
-    return {span->x0, span->x0 + span->length - 1};
+    inside =
+        inside && span->length >= 1 && span->x0 >= 0 && span->x0 + span->length <= image.size();
+    const int x0 = image.first + span->x0;
+    return {x0, x0 + span->length - 1};
 }
 
 double off_threshold(const ProjectedSplat& s, int x, int y) {
@@ -45,13 +48,14 @@ SpanDifference compare_spans(const FrameWorkload& workload, const DataPathOption
     const auto two = make_data_path(second, workload.tile_size, 1);
     one->add_frame(workload);
     two->add_frame(workload);
-    const int width = workload.camera.width;
+    const PixelBox image = workload.camera.window();
+    const PixelRange columns{image.x0, image.x1};
     SpanDifference difference;
     for (std::uint32_t i = 0; i < workload.splats.size(); ++i) {
-        const PixelRange rows = one->rows(i).widened(1).within({0, workload.camera.height - 1});
+        const PixelRange rows = one->rows(i).widened(1).within({image.y0, image.y1});
         for (int y = rows.first; y <= rows.last; ++y) {
-            const PixelRange a = solve(*one, i, y, width, difference.inside);
-            const PixelRange b = solve(*two, i, y, width, difference.inside);
+            const PixelRange a = solve(*one, i, y, columns, difference.inside);
+            const PixelRange b = solve(*two, i, y, columns, difference.inside);
             difference.spans += a.empty() ? 0 : 1;
             difference.pixels += a.size();
             count_flips(workload.splats[i], y, a, b, difference);

@@ -101,6 +101,13 @@ std::vector<RegisterInfo> rows() {
         {R::Axes, 18, "AXES", rw,
          "9 doubles: view axes x (right), y (down), z (forward) in world space"},
         {R::Position, 6, "POSITION", rw, "3 doubles: camera centre in world space"},
+        {R::ShiftX, 2, "SHIFT_X", rw,
+         "double, pixels from the middle of the image to the right, where the principal point is"},
+        {R::ShiftY, 2, "SHIFT_Y", rw, "double, the same downwards"},
+        {R::OriginX, 1, "ORIGIN_X", rw,
+         "first column of the image in its raster, whose tiles begin at column 0; at least -2 "
+         "`SHIFT_X`, rounded down, is taken"},
+        {R::OriginY, 1, "ORIGIN_Y", rw, "the same of its first row"},
         {R::Cycles, 2, "CYCLES", r, "of the last frame: scene loaded to last pixel in memory"},
         {R::LoadCycles, 2, "LOAD_CYCLES", r,
          "of the last frame: reading the scene; 0 if the memory has debug transport"},

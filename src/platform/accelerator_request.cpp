@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/accelerator_request.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -62,6 +63,25 @@ AcceleratorFault read_camera(const AcceleratorRegisters& regs, Camera& camera) {
     }
     return is_rotation(camera.camera_to_world) ? AcceleratorFault{}
                                                : fault(AcceleratorError::BadCamera, Register::Axes);
+}
+
+// Where the image lies in its raster. Registers that nobody has written put it in the middle.
+AcceleratorFault read_window(const AcceleratorRegisters& regs, Camera& camera) {
+    const glm::dvec2 shift(regs.get_double(Register::ShiftX), regs.get_double(Register::ShiftY));
+    if (!camera.set_principal_point(camera.principal_point() + shift)) {
+        return fault(AcceleratorError::BadCamera, Register::ShiftX);
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+        const Register which = axis == 0 ? Register::OriginX : Register::OriginY;
+        const std::uint32_t origin = regs.get(which);
+        if (origin > kMostRasterSide) {
+            return fault(AcceleratorError::BadCamera, which);
+        }
+        camera.shift[axis] = shift[axis]; // as it was written
+        camera.origin[axis] = std::max(camera.origin[axis], static_cast<int>(origin));
+    }
+    return camera.has_sound_raster() ? AcceleratorFault{}
+                                     : fault(AcceleratorError::BadCamera, Register::OriginX);
 }
 
 AcceleratorFault read_scene(const AcceleratorRegisters& regs, std::uint32_t max_gaussians,
@@ -127,7 +147,8 @@ AcceleratorFault AcceleratorRequest::read(const AcceleratorRegisters& registers,
     found = found ? found : read_scene(registers, limits.gaussians, request);
     found = found ? found : read_bases(registers, request);
     found = found ? found : check_regions(request);
-    return found ? found : read_camera(registers, request.camera);
+    found = found ? found : read_camera(registers, request.camera);
+    return found ? found : read_window(registers, request.camera);
 }
 
 std::uint64_t AcceleratorRequest::frame_bytes() const {

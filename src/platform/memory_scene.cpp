@@ -14,6 +14,10 @@ MemoryScene::View view_of(const Camera& camera) {
     view.height = camera.height;
     view.focal_x = camera.fx;
     view.focal_y = camera.fy;
+    view.shift_x = camera.shift.x;
+    view.shift_y = camera.shift.y;
+    view.origin_x = camera.origin.x;
+    view.origin_y = camera.origin.y;
     for (int i = 0; i < 9; ++i) {
         view.axes[i] = camera.camera_to_world[i / 3][i % 3];
         view.position[i % 3] = camera.position[i % 3];

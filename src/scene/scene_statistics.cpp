@@ -112,7 +112,7 @@ double ellipse_area(const ProjectedSplat& splat) {
 
 /// Pixel centres of the image inside the ellipse, row by row.
 std::uint64_t pixels_inside(const ProjectedSplat& splat, const Camera& camera) {
-    const PixelBox box = pixel_box(splat, camera.width, camera.height);
+    const PixelBox box = pixel_box(splat, camera.window());
     std::uint64_t pixels = 0;
     for (int y = box.y0; y <= box.y1; ++y) {
         const double dy = y - splat.mu_y;

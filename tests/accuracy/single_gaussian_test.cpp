@@ -118,12 +118,12 @@ TEST(SingleGaussian, SplatsAreWhatTheyAreCalled) {
 
 TEST(SingleGaussian, WindowContainsTheMean) {
     ProjectedSplat splat = window_splat(100.2, 40, 3, 3, 0, 1);
-    EXPECT_EQ(window_of(splat, 1920, 1080).x, 96);
-    EXPECT_EQ(window_of(splat, 1920, 1080).y, 32);
+    EXPECT_EQ(window_of(splat, {0, 0, 1919, 1079}).x, 96);
+    EXPECT_EQ(window_of(splat, {0, 0, 1919, 1079}).y, 32);
     splat.mu_x = -1e9;
     splat.mu_y = 1e9;
-    EXPECT_EQ(window_of(splat, 1920, 1080).x, 0);
-    EXPECT_EQ(window_of(splat, 1920, 1080).y, 1056);
+    EXPECT_EQ(window_of(splat, {0, 0, 1919, 1079}).x, 0);
+    EXPECT_EQ(window_of(splat, {0, 0, 1919, 1079}).y, 1056);
 }
 
 } // namespace

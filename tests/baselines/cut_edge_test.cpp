@@ -168,7 +168,7 @@ TEST(CutEdge, IsPartOfWhatBoundsASplat) {
             const FrameWorkload frame = scene.frame(cut, 1);
             for (const ProjectedSplat& splat : frame.splats) {
                 const OrientedBox box(splat);
-                const PixelBox bounds = pixel_box(splat, kSide, kSide);
+                const PixelBox bounds = pixel_box(splat, {0, 0, kSide - 1, kSide - 1});
                 const int x = static_cast<int>(splat.mu_x), y = static_cast<int>(splat.mu_y);
                 if (splat.q_cut_off == 0) { // alpha is 1/255 before the cut
                     continue;

@@ -99,14 +99,15 @@ void TileEngine::start_tile(TileNumber number) {
     number_ = number;
     tile_ = &job_.tiles[number];
     take_context();
-    live_rows_ = tile_->height;
+    const PixelRange rows = tile_->drawn_rows();
+    live_rows_ = rows.size();
     started_ = self_.local();
     last_end_ = 0;
     ended_ = kNever;
     reported_ = false;
     for (int row = 0; row < job_.tile_size; ++row) {
-        const bool inside = row < tile_->height;
-        rows_[row] = {inside ? kNever : 0, inside ? tile_->width : 0};
+        const bool inside = rows.holds(row);
+        rows_[row] = {inside ? kNever : 0, inside ? tile_->drawn_columns().size() : 0};
     }
 }
 
@@ -151,8 +152,8 @@ void TileEngine::generate(std::uint32_t splat) {
     Cycle now = self_.local();
     int left = config_.rows_per_cycle; // rows of this cycle
     const Cycle began = now;
-    const int x_end = tile_->x + tile_->width;
-    const PixelRange rows = job_.path->tested_rows(splat, tile_->columns(), tile_->rows());
+    const PixelRange columns = tile_->columns();
+    const PixelRange rows = job_.path->tested_rows(splat, columns, tile_->rows());
     Cycle pushed = now;
     for (int y = rows.first; y <= rows.last; ++y) {
         if (rows_[y - tile_->y].ended <= now) {
@@ -165,7 +166,8 @@ void TileEngine::generate(std::uint32_t splat) {
             --y; // once more, because it may have ended in the meantime
             continue;
         }
-        const PixelRange pixels = job_.path->tested_columns(splat, y, tile_->x, x_end);
+        const PixelRange pixels =
+            job_.path->tested_columns(splat, y, columns.first, columns.last + 1);
         if (!pixels.empty()) {
             const Entry entry{splat, y - tile_->y, pixels.first - tile_->x, pixels.size()};
             pushed = std::max(pushed, push(entry, now));

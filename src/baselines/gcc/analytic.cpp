@@ -110,10 +110,10 @@ WindowMask Clock::visited(const CoarseTile& tile, int row, const CoarseSpan* spa
     WindowMask visited = 0;
     for (; spans != end; ++spans) {
         visited |= windows_of(*spans);
-        if (spans->first > 0) {
+        if (spans->first > tile.columns().first) {
             visited |= windows_of({spans->row, spans->first - 1, spans->first - 1});
         }
-        if (spans->last + 1 < tile.width()) {
+        if (spans->last < tile.columns().last) {
             visited |= windows_of({spans->row, spans->last + 1, spans->last + 1});
         }
     }

@@ -9,11 +9,11 @@ Traversal::Traversal(int windows) : seen_(windows, 0) {
     frontier_.reserve(windows * windows);
 }
 
-void Traversal::begin(const Footprint& splat, int columns, int rows) {
+void Traversal::begin(const Footprint& splat, const PixelRange& columns, const PixelRange& rows) {
     splat_ = &splat;
     columns_ = columns;
     rows_ = rows;
-    std::fill_n(seen_.begin(), rows, WindowMask{0});
+    std::fill_n(seen_.begin(), rows.last + 1, WindowMask{0});
     frontier_.clear();
     head_ = 0;
 }
@@ -34,16 +34,16 @@ void Traversal::expand(const Window& window, Cycle known) {
     const auto leads = [&](Footprint::Side side) {
         return (splat_->border(side, window.row) >> window.column & 1U) != 0;
     };
-    if (window.column > 0 && leads(Footprint::kLeft)) {
+    if (window.column > columns_.first && leads(Footprint::kLeft)) {
         push_new(window.row, window.column - 1, known);
     }
-    if (window.column + 1 < columns_ && leads(Footprint::kRight)) {
+    if (window.column < columns_.last && leads(Footprint::kRight)) {
         push_new(window.row, window.column + 1, known);
     }
-    if (window.row > 0 && leads(Footprint::kTop)) {
+    if (window.row > rows_.first && leads(Footprint::kTop)) {
         push_new(window.row - 1, window.column, known);
     }
-    if (window.row + 1 < rows_ && leads(Footprint::kBottom)) {
+    if (window.row < rows_.last && leads(Footprint::kBottom)) {
         push_new(window.row + 1, window.column, known);
     }
 }

@@ -24,8 +24,9 @@ public:
     /// Views of at most `windows` x `windows` windows.
     explicit Traversal(int windows);
 
-    /// Starts on a view of `columns` x `rows` windows. `splat` is to stay as it is until the end.
-    void begin(const Footprint& splat, int columns, int rows);
+    /// Starts on these columns and rows of a view's windows. `splat` is to stay as it is until the
+    /// end.
+    void begin(const Footprint& splat, const PixelRange& columns, const PixelRange& rows);
     /// Adds a window that no border has led to.
     void seed(const Window& window) { push(window); }
     /// Takes the oldest window of the frontier, if there is one.
@@ -40,7 +41,7 @@ private:
     void push_new(int row, int column, Cycle known);
 
     const Footprint* splat_ = nullptr;
-    int columns_ = 0, rows_ = 0;
+    PixelRange columns_, rows_;    // of windows
     std::vector<WindowMask> seen_; // per row of windows: visited or in the frontier
     std::vector<Window> frontier_; // from head_ on
     std::size_t head_ = 0;

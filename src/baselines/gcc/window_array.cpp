@@ -109,14 +109,14 @@ void WindowArray::start_view(TileNumber number) {
     view_ = &view;
     number_ = number;
     context_ = context_in_turn(views_, share_.contexts, share_.first_context);
-    columns_ = ceil_div(view.width, config_.window);
-    rows_ = ceil_div(view.height, config_.window);
-    live_pixels_ = view.width * view.height;
+    const PixelRange columns = view.drawn_columns(), rows = view.drawn_rows();
+    columns_ = {footprint_.window_of(columns.first), footprint_.window_of(columns.last)};
+    rows_ = {footprint_.window_of(rows.first), footprint_.window_of(rows.last)};
+    live_pixels_ = columns.size() * rows.size();
     reported_ = false;
     const auto inside = [&](int index, int per_row, int side) {
-        const int width = std::clamp(view.width - index % per_row * side, 0, side);
-        const int height = std::clamp(view.height - index / per_row * side, 0, side);
-        return width * height;
+        const int x = index % per_row * side, y = index / per_row * side;
+        return columns.within({x, x + side - 1}).size() * rows.within({y, y + side - 1}).size();
     };
     for (int w = 0; w < grid_ * grid_; ++w) {
         live_in_window_[w] = inside(w, grid_, config_.window);
@@ -124,7 +124,8 @@ void WindowArray::start_view(TileNumber number) {
     for (int b = 0; b < blocks_ * blocks_; ++b) {
         live_in_block_[b] = inside(b, blocks_, block_);
     }
-    std::fill_n(live_windows_.begin(), rows_, windows_between(0, columns_ - 1));
+    std::fill_n(live_windows_.begin(), rows_.last + 1,
+                windows_between(columns_.first, columns_.last));
 }
 
 void WindowArray::end_view() {
@@ -206,13 +207,13 @@ void WindowArray::note_ended(int y, int column, std::uint32_t ended) {
 }
 
 Traversal::Window WindowArray::centre_window(const ProjectedSplat& splat) const {
-    const auto clamped = [&](double centre, int begin, int size) {
+    const auto clamped = [&](double centre, int begin, const PixelRange& drawn) {
         const double pixel = std::floor(centre + 0.5) - begin;
-        return footprint_.window_of(index_within(pixel, 0.0, size - 1.0));
+        return footprint_.window_of(index_within(pixel, drawn.first, drawn.last));
     };
     Traversal::Window window;
-    window.row = clamped(splat.mu_y, view_->y, view_->height);
-    window.column = clamped(splat.mu_x, view_->x, view_->width);
+    window.row = clamped(splat.mu_y, view_->y, view_->drawn_rows());
+    window.column = clamped(splat.mu_x, view_->x, view_->drawn_columns());
     return window;
 }
 

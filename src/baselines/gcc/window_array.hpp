@@ -121,9 +121,9 @@ private:
     const JobTile* view_ = nullptr;
     TileNumber number_ = 0;
     int context_ = 0;
-    int columns_ = 0, rows_ = 0; // windows of the view
-    std::uint64_t views_ = 0;    // that are over
-    std::uint64_t startable_;    // so many views have had a context
+    PixelRange columns_, rows_; // windows with a pixel of the image
+    std::uint64_t views_ = 0;   // that are over
+    std::uint64_t startable_;   // so many views have had a context
     int live_pixels_ = 0;
     bool reported_ = false;
     std::vector<int> live_in_window_, live_in_block_;

@@ -61,7 +61,7 @@ public:
     void begin(const CoarseTile& tile) override {
         passes_ = scans_ = 0;
         passed_over_ = 0;
-        inside_ = grid_.inside(tile.width(), tile.height());
+        inside_ = grid_.holding(tile.columns(), tile.pixel_rows());
     }
     void splat(const CoarseTile& tile) override;
     TileCycles end(const CoarseTile& tile) override;

@@ -121,13 +121,13 @@ void LockstepArray::start_tile(TileNumber number) {
     if (config_.subtile_skip == SubtileTest::Obb) {
         boxes_.include(tile_->frame);
     }
-    inside_ = grid_.inside(tile_->width, tile_->height);
+    inside_ = grid_.holding(tile_->drawn_columns(), tile_->drawn_rows());
     live_subtiles_ = 0;
     for (int s = 0; s < grid_.count(); ++s) {
         const PixelBox box = pixels_of(s);
         subtiles_[s] = {};
         if (!box.empty()) {
-            subtiles_[s].live = (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1);
+            subtiles_[s].live = box.width() * box.height();
             ++live_subtiles_;
         }
     }
@@ -135,12 +135,10 @@ void LockstepArray::start_tile(TileNumber number) {
 
 PixelBox LockstepArray::pixels_of(int subtile) const {
     const int side = grid_.side();
-    PixelBox box;
-    box.x0 = subtile % grid_.per_side() * side;
-    box.y0 = subtile / grid_.per_side() * side;
-    box.x1 = std::min(box.x0 + side, tile_->width) - 1;
-    box.y1 = std::min(box.y0 + side, tile_->height) - 1;
-    return box;
+    const int x = subtile % grid_.per_side() * side, y = subtile / grid_.per_side() * side;
+    const PixelRange columns = tile_->drawn_columns(), rows = tile_->drawn_rows();
+    return PixelBox{x, y, x + side - 1, y + side - 1}.within(
+        {columns.first, rows.first, columns.last, rows.last});
 }
 
 /// False if the tile stops before its next chunk is there.
@@ -272,7 +270,7 @@ void LockstepArray::pass(int subtile, std::uint32_t splat, Cycle at) {
 /// All lanes at their pixels of one sub-tile; returns how many of them ended.
 int LockstepArray::evaluate(int subtile, std::uint32_t splat) {
     const PixelBox box = pixels_of(subtile);
-    const int width = box.x1 - box.x0 + 1;
+    const int width = box.width();
     PixelTest test;
     test.splat = splat;
     test.mask = width == 32 ? ~0U : (1U << width) - 1U;
@@ -281,7 +279,7 @@ int LockstepArray::evaluate(int subtile, std::uint32_t splat) {
     test.y = tile_->y + box.y0;
     test.row = box.y0;
     test.context = context_;
-    const int rows = box.y1 - box.y0 + 1;
+    const int rows = box.height();
     job_.path->test_rows(test, rows, outcomes_.data());
     int useful = 0, terminated = 0, ended = 0;
     for (int row = 0; row < rows; ++row) {

@@ -151,7 +151,7 @@ void VectorUnit::start_tile(TileNumber number) {
     number_ = number;
     tile_ = &job_.tiles[number];
     context_ = first_context_ + context_in_turn(stats_.tiles, contexts_);
-    live_ = tile_->width * tile_->height;
+    live_ = tile_->drawn_columns().size() * tile_->drawn_rows().size();
     stats_.tiles++;
 }
 
@@ -160,9 +160,11 @@ BatchOutcome VectorUnit::blend(const GemmBatch& batch) {
     const std::uint32_t* list = job_.frame_of(*tile_).tile_splats.data() + batch.first;
     const std::uint32_t first_splat = job_.first_splat[tile_->frame];
     PixelTest test;
-    test.mask = bits_between(0, tile_->width);
+    const PixelRange columns = tile_->drawn_columns(), rows = tile_->drawn_rows();
+    test.mask = bits_between(columns.first, columns.last + 1);
     test.x = tile_->x;
-    test.y = tile_->y;
+    test.y = tile_->y + rows.first;
+    test.row = rows.first;
     test.context = context_;
     BatchOutcome sum;
     for (std::uint32_t i = 0; i < batch.splats; ++i) {
@@ -171,9 +173,9 @@ BatchOutcome VectorUnit::blend(const GemmBatch& batch) {
             break;
         }
         test.splat = first_splat + list[i];
-        job_.path->test_rows(test, tile_->height, outcomes_.data());
+        job_.path->test_rows(test, rows.size(), outcomes_.data());
         std::uint64_t useful = 0, terminated = 0;
-        for (int row = 0; row < tile_->height; ++row) {
+        for (int row = 0; row < rows.size(); ++row) {
             const BlendOutcome& outcome = outcomes_[row];
             useful += __builtin_popcount(outcome.useful);
             terminated += __builtin_popcount(outcome.terminated);

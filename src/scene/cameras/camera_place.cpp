@@ -59,9 +59,13 @@ void check_rotation(const CameraPlace& place, const std::string& name, const glm
     }
 }
 
-void LensResidue::join(const LensResidue& other) {
-    principal_shift = std::max(principal_shift, other.principal_shift);
-    distortion = std::max(distortion, other.distortion);
+void set_principal_point(const CameraPlace& place, double cx, double cy, Camera& camera) {
+    if (!camera.set_principal_point({cx, cy})) {
+        place.fail("has a principal point at " + std::to_string(cx) + ", " + std::to_string(cy) +
+                   ", too far from the middle of its image; a centred image that holds it may have "
+                   "at most " +
+                   std::to_string(kMostRasterSide) + " pixels to a side.");
+    }
 }
 
 double corner_distortion(const LensDistortion& lens, const Camera& camera, double cx, double cy) {
@@ -75,18 +79,12 @@ double corner_distortion(const LensDistortion& lens, const Camera& camera, doubl
     return std::hypot(camera.fx * dx, camera.fy * dy);
 }
 
-std::string lens_note(const std::string& path, const LensResidue& residue) {
-    std::string what;
-    if (residue.principal_shift >= kWorthANote) {
-        what = "principal points up to " + pixels_text(residue.principal_shift) +
-               " off the middle of the image, where they are put";
-    }
+std::string lens_note(const std::string& path, double distortion) {
     // Phrased so that a distortion that is not a number is mentioned, too.
-    if (!(residue.distortion < kWorthANote)) {
-        what += std::string(what.empty() ? "" : ", and ") + "lens distortion of up to " +
-                pixels_text(residue.distortion) + " in the corners, which is left out";
-    }
-    return what.empty() ? "" : "The cameras of " + path + " have " + what + ".";
+    return distortion < kWorthANote
+               ? ""
+               : "The cameras of " + path + " have lens distortion of up to " +
+                     pixels_text(distortion) + " in the corners, which is left out.";
 }
 
 } // namespace degs

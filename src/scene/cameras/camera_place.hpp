@@ -45,14 +45,10 @@ double checked_focal_length(const CameraPlace& place, const std::string& name, d
 /// does not mirror. `name` is the key.
 void check_rotation(const CameraPlace& place, const std::string& name, const glm::dmat3& matrix);
 
-/// Lens properties beyond a Camera, which has its principal point in the middle and no distortion.
-struct LensResidue {
-    double principal_shift =
-        0;                 ///< px, the larger of both axes, of the principal point off the middle
-    double distortion = 0; ///< px, of the corner of the image
-
-    void join(const LensResidue& other);
-};
+/// Puts the principal point `cx`, `cy` px from the upper left corner of the image, so that the
+/// centre of its first pixel lies at 0.5, 0.5. Throws InputError if that takes a raster with a side
+/// of more than kMostRasterSide.
+void set_principal_point(const CameraPlace& place, double cx, double cy, Camera& camera);
 
 /// Radial and tangential distortion as OpenCV has it; zero if unused.
 struct LensDistortion {
@@ -64,8 +60,8 @@ struct LensDistortion {
 /// `cx`, `cy` (px).
 double corner_distortion(const LensDistortion& lens, const Camera& camera, double cx, double cy);
 
-/// A full sentence for what of the lenses is left out; empty if that is less than a hundredth of a
-/// pixel.
-std::string lens_note(const std::string& path, const LensResidue& residue);
+/// A full sentence for a lens distortion that is left out, px in the corner of an image; empty if
+/// it is less than a hundredth of a pixel.
+std::string lens_note(const std::string& path, double distortion);
 
 } // namespace degs

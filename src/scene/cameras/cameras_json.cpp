@@ -35,42 +35,24 @@ Camera camera_of_json(const CameraPlace& place, std::size_t index, const nlohman
     camera.height = entry.side("height");
     camera.fx = entry.focal_length("fx");
     camera.fy = entry.focal_length("fy");
+    set_principal_point(place, entry.has("cx") ? entry.number("cx") : camera.width / 2.0,
+                        entry.has("cy") ? entry.number("cy") : camera.height / 2.0, camera);
     camera.position = entry.vector("position");
     camera.camera_to_world = entry.rows("rotation");
     check_rotation(place, "rotation", camera.camera_to_world);
     return camera;
 }
 
-/// px; 0 within half a pixel, because some writers count pixels from their centres.
-double principal_shift(const JsonEntry& entry, const Camera& camera) {
-    constexpr double kHalfPixel = 0.5;
-    double shift = 0;
-    for (const auto& [key, side] :
-         {std::pair("cx", camera.width), std::pair("cy", camera.height)}) {
-        if (entry.has(key)) {
-            shift = std::max(shift, std::abs(entry.number(key) - side / 2.0));
-        }
-    }
-    return shift > kHalfPixel ? shift : 0;
-}
-
 } // namespace
 
 CameraFile read_cameras_json(const std::string& path) {
     CameraFile file;
-    LensResidue residue;
     read_json_entries(path, json_cameras(), [&](std::size_t index, const nlohmann::json& json) {
         const CameraPlace place(path, entry_name(json_cameras(), index));
         file.cameras.push_back(camera_of_json(place, index, json));
-        residue.join(
-            {principal_shift(JsonEntry(place, json, json_cameras().needed), file.cameras.back()),
-             0});
         file.generated =
             file.generated || (json.contains("generated") && json["generated"] == true);
     });
-    if (std::string note = lens_note(path, residue); !note.empty()) {
-        file.notes.push_back(std::move(note));
-    }
     if (file.generated) {
         file.notes.push_back("The view in " + path +
                              " was generated for a scene that has no cameras.");

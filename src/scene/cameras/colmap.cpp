@@ -25,11 +25,11 @@ ColmapFiles colmap_in(const std::string& folder) {
 }
 
 CameraFile read_colmap(const ColmapFiles& files) {
-    LensResidue residue;
+    double distortion = 0;
     CameraFile result;
     result.of_original_data = true;
-    ColmapCameras cameras = files.binary ? read_colmap_cameras_binary(files.cameras, residue)
-                                         : read_colmap_cameras_text(files.cameras, residue);
+    ColmapCameras cameras = files.binary ? read_colmap_cameras_binary(files.cameras, distortion)
+                                         : read_colmap_cameras_text(files.cameras, distortion);
     cameras.sort(files.cameras);
     result.cameras = files.binary ? read_colmap_images_binary(files.images, cameras)
                                   : read_colmap_images_text(files.images, cameras);
@@ -44,7 +44,7 @@ CameraFile read_colmap(const ColmapFiles& files) {
                       "two images have the name " + in_quotes(result.cameras[i].name) + ".");
         }
     }
-    if (std::string note = lens_note(files.cameras, residue); !note.empty()) {
+    if (std::string note = lens_note(files.cameras, distortion); !note.empty()) {
         result.notes.push_back(std::move(note));
     }
     return result;

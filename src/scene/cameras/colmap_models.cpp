@@ -79,7 +79,7 @@ const ColmapModel& colmap_model(const CameraPlace& place, const std::string& nam
 
 ColmapCamera colmap_camera(const CameraPlace& place, std::uint32_t id, const ColmapModel& model,
                            double width, double height, const std::vector<double>& parameters,
-                           LensResidue& residue) {
+                           double& distortion) {
     for (const double value : parameters) {
         if (!std::isfinite(value)) {
             place.fail("has a parameter of its camera model that is not finite.");
@@ -104,8 +104,8 @@ ColmapCamera colmap_camera(const CameraPlace& place, std::uint32_t id, const Col
     for (int i = 0; i < count; ++i) { // k1 k2 p1 p2 k3 k4 k5 k6
         (i == 2 || i == 3 ? lens.p[i - 2] : lens.k[i < 2 ? i : i - 2]) = terms[i];
     }
-    residue.join({std::max(std::abs(cx - camera.width / 2.0), std::abs(cy - camera.height / 2.0)),
-                  corner_distortion(lens, camera, cx, cy)});
+    set_principal_point(place, cx, cy, camera);
+    distortion = std::max(distortion, corner_distortion(lens, camera, cx, cy));
     return made;
 }
 

@@ -28,11 +28,11 @@ struct ColmapCamera {
     Camera camera;
 };
 
-/// Checks and reduces to a pinhole; what is left out goes to `residue`. `width` and `height` are
-/// px, `parameters` has as many as the model takes.
+/// Checks and reduces to a pinhole; what is left out goes to `distortion`, px in a corner. `width`
+/// and `height` are px, `parameters` has as many as the model takes.
 ColmapCamera colmap_camera(const CameraPlace& place, std::uint32_t id, const ColmapModel& model,
                            double width, double height, const std::vector<double>& parameters,
-                           LensResidue& residue);
+                           double& distortion);
 
 /// World to camera, as the files have it.
 struct ColmapPose {

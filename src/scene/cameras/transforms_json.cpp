@@ -68,8 +68,8 @@ struct Intrinsics {
     LensDistortion lens;
 
     void read(const CameraPlace& place, const JsonEntry& entry);
-    /// Fills size and focal lengths of the camera; what is left out goes to `residue`.
-    void apply(const CameraPlace& place, Camera& camera, LensResidue& residue) const;
+    /// Fills size and focal lengths of the camera; `distortion`, px in a corner, is left out.
+    void apply(const CameraPlace& place, Camera& camera, double& distortion) const;
 };
 
 double angle(const CameraPlace& place, const JsonEntry& entry, const char* key) {
@@ -141,7 +141,7 @@ double focal_of_angle(const CameraPlace& place, const char* key, int side, doubl
                                 std::to_string(focal));
 }
 
-void Intrinsics::apply(const CameraPlace& place, Camera& camera, LensResidue& residue) const {
+void Intrinsics::apply(const CameraPlace& place, Camera& camera, double& distortion) const {
     const bool by_angle = angle_x && !fl_x;
     if (!by_angle && (!w || !h)) {
         place.fail("has no image size; w and h are needed, in the frame or in the file.");
@@ -158,8 +158,8 @@ void Intrinsics::apply(const CameraPlace& place, Camera& camera, LensResidue& re
                           : camera.fx; // square pixels
     const double x = cx.value_or(camera.width / 2.0);
     const double y = cy.value_or(camera.height / 2.0);
-    residue.join({std::max(std::abs(x - camera.width / 2.0), std::abs(y - camera.height / 2.0)),
-                  corner_distortion(lens, camera, x, y)});
+    set_principal_point(place, x, y, camera);
+    distortion = std::max(distortion, corner_distortion(lens, camera, x, y));
 }
 
 /// What was done to the poses of the original data: p_file = applied_scale (applied_transform p).
@@ -219,7 +219,7 @@ CameraFile read_transforms_json(const std::string& path) {
     const glm::dmat4 to_original = applied.inverse();
     CameraFile file;
     file.of_original_data = true;
-    LensResidue residue;
+    double distortion = 0;
     bool assumed_size = false;
     read_json_entries(
         path, transforms_frames(), [&](std::size_t index, const nlohmann::json& json) {
@@ -232,7 +232,7 @@ CameraFile read_transforms_json(const std::string& path) {
             camera.name = entry.has("file_path")
                               ? std::filesystem::path(entry.text("file_path")).stem().string()
                               : place.entry();
-            own.apply(place, camera, residue);
+            own.apply(place, camera, distortion);
             assumed_size = assumed_size || !own.w || !own.h;
             set_pose(place, entry.affine("transform_matrix"), to_original, camera);
             file.cameras.push_back(std::move(camera));
@@ -245,7 +245,7 @@ CameraFile read_transforms_json(const std::string& path) {
     if (std::string note = applied.note(path); !note.empty()) {
         file.notes.push_back(std::move(note));
     }
-    if (std::string note = lens_note(path, residue); !note.empty()) {
+    if (std::string note = lens_note(path, distortion); !note.empty()) {
         file.notes.push_back(std::move(note));
     }
     return file;

@@ -19,7 +19,13 @@ int side_of(const tinygltf::Camera& camera, const char* key) {
     return pixels >= 1 && pixels <= kMostSide ? pixels : 0;
 }
 
-/// Size and focal lengths.
+/// A coordinate of the principal point in the extras; that of the middle if there is none.
+double coordinate_of(const tinygltf::Camera& camera, const char* key, int side) {
+    const tinygltf::Value* const value = member_of(camera.extras, key);
+    return value != nullptr && value->IsNumber() ? value->GetNumberAsDouble() : side / 2.0;
+}
+
+/// Size, focal lengths and principal point.
 void set_lens(const GltfFile& file, const tinygltf::Camera& from, const std::string& who,
               Camera& to) {
     const double yfov = from.perspective.yfov;
@@ -46,6 +52,11 @@ void set_lens(const GltfFile& file, const tinygltf::Camera& from, const std::str
     if (!(std::isfinite(to.fx) && std::isfinite(to.fy))) {
         file.fail(who + " has a yfov of " + std::to_string(yfov) +
                   " radians, which is too small for a focal length.");
+    }
+    if (!to.set_principal_point(
+            {coordinate_of(from, "cx", to.width), coordinate_of(from, "cy", to.height)})) {
+        file.fail(who + " has a principal point (cx, cy) in its extras that is too far from the "
+                        "middle of the image.");
     }
 }
 

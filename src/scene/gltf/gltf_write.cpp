@@ -100,7 +100,18 @@ void add_instances(const std::vector<GlbInstance>& instances, GlbJson& nodes) {
     }
 }
 
-/// Extras hold the size of the image, which glTF does not know.
+/// What glTF does not know of a camera: the size of the image, and a principal point off its
+/// middle.
+GlbJson extras_of(const Camera& camera) {
+    GlbJson extras = {{"width", camera.width}, {"height", camera.height}};
+    if (camera.shift != glm::dvec2(0.0)) {
+        const glm::dvec2 point = camera.principal_point();
+        extras["cx"] = point.x;
+        extras["cy"] = point.y;
+    }
+    return extras;
+}
+
 void add_cameras(const std::vector<Camera>& cameras, GlbJson& json) {
     for (const Camera& camera : cameras) {
         json["cameras"].push_back(
@@ -109,7 +120,7 @@ void add_cameras(const std::vector<Camera>& cameras, GlbJson& json) {
               {{"yfov", 2 * std::atan(camera.height / (2 * camera.fy))},
                {"aspectRatio", camera.width * camera.fy / (camera.height * camera.fx)},
                {"znear", kRequiredNear}}},
-             {"extras", {{"width", camera.width}, {"height", camera.height}}}});
+             {"extras", extras_of(camera)}});
         const glm::dvec3& right = camera.camera_to_world[0];
         const glm::dvec3 up = -camera.camera_to_world[1];
         const glm::dvec3 back = -camera.camera_to_world[2];

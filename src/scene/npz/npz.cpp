@@ -43,7 +43,7 @@ public:
                                        means->at(3 * i + 2));
         }
         archive_.has("scales.npy") ? read_gaussians() : start_from_points();
-        content_.cameras = read_npz_cameras(archive_, content_.notes);
+        content_.cameras = read_npz_cameras(archive_);
         return std::move(content_);
     }
 

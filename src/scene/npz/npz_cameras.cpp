@@ -72,7 +72,7 @@ void place(const ZipArchive& archive, const NpyArray& viewmats, std::uint64_t in
 
 } // namespace
 
-std::vector<Camera> read_npz_cameras(const ZipArchive& archive, std::vector<std::string>& notes) {
+std::vector<Camera> read_npz_cameras(const ZipArchive& archive) {
     std::vector<Camera> cameras;
     if (!archive.has("viewmats.npy")) {
         return cameras;
@@ -85,7 +85,6 @@ std::vector<Camera> read_npz_cameras(const ZipArchive& archive, std::vector<std:
                                       " matrices 'viewmats', but " +
                                       std::to_string(intrinsics.shape[0]) + " 'Ks'.");
     }
-    double worst = 0;
     for (std::uint64_t i = 0; i < viewmats.shape[0]; ++i) {
         Camera camera;
         camera.id = static_cast<int>(i);
@@ -98,21 +97,19 @@ std::vector<Camera> read_npz_cameras(const ZipArchive& archive, std::vector<std:
             fail_file(archive.path(), "matrix " + std::to_string(i) +
                                           " of its array 'Ks' has no positive focal lengths.");
         }
-        worst = std::max({worst, std::abs(intrinsics.at(9 * i + 2) - camera.width / 2.0),
-                          std::abs(intrinsics.at(9 * i + 5) - camera.height / 2.0)});
+        if (!camera.set_principal_point({intrinsics.at(9 * i + 2), intrinsics.at(9 * i + 5)})) {
+            fail_file(archive.path(), "matrix " + std::to_string(i) +
+                                          " of its array 'Ks' has a principal point too far from "
+                                          "the middle of the image.");
+        }
         place(archive, viewmats, i, camera);
         cameras.push_back(std::move(camera));
-    }
-    if (worst > 0.5) {
-        notes.push_back("Principal points lie up to " + std::to_string(worst) +
-                        " pixels from the centre of the image, where they were put.");
     }
     return cameras;
 }
 
 std::vector<Camera> read_npz_cameras(const std::string& path) {
-    std::vector<std::string> notes;
-    return read_npz_cameras(ZipArchive(path), notes);
+    return read_npz_cameras(ZipArchive(path));
 }
 
 } // namespace degs

@@ -85,6 +85,7 @@ Camera photo_camera(const std::string& path, const PhotoLens& lens,
     camera.height = checked_side(place, "height", lens.height, plain_number(lens.height));
     camera.fx = checked_focal_length(place, "fx", lens.fx, plain_number(lens.fx));
     camera.fy = checked_focal_length(place, "fy", lens.fy, plain_number(lens.fy));
+    set_principal_point(place, lens.cx, lens.cy, camera);
     glm::dmat3 world_to_camera(1.0);
     glm::dvec3 shift(0.0);
     const bool turned = extrinsic.size() == 12; // the rotation column by column
@@ -117,13 +118,7 @@ void add_photo_camera(const std::string& path, PlyColumns& columns, SceneContent
             "9, 16 and 2; its camera was passed over.");
         return;
     }
-    const PhotoLens lens = lens_of(k, size);
-    content.cameras.push_back(photo_camera(path, lens, extrinsic));
-    const double shift =
-        std::max(std::abs(lens.cx - lens.width / 2), std::abs(lens.cy - lens.height / 2));
-    if (std::string note = lens_note(path, {shift, 0}); !note.empty()) {
-        content.notes.push_back(std::move(note));
-    }
+    content.cameras.push_back(photo_camera(path, lens_of(k, size), extrinsic));
 }
 
 } // namespace

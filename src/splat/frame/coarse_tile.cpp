@@ -19,25 +19,25 @@ constexpr std::uint64_t kPrefetched = 6;
 CoarseTile::CoarseTile(const FrameWorkload& frame, const Options& options)
     : frame_(frame), options_(options),
       cells_x_((frame.tile_size + options.cell_width - 1) / options.cell_width),
-      samples_((frame.tile_size + kApart - 1) / kApart) {}
+      samples_((frame.tile_size + kApart - 1) / kApart), grid_(frame.grid()) {}
 
 void CoarseTile::begin(int tile, const RowChoice& choice) {
-    const int size = frame_.tile_size;
+    const PixelBox whole = grid_.pixels_of(tile), drawn = grid_.drawn_of(tile);
     tile_ = tile;
-    x_ = tile % frame_.tiles_x * size;
-    y_ = tile / frame_.tiles_x * size;
-    width_ = std::min(size, frame_.camera.width - x_);
-    height_ = std::min(size, frame_.camera.height - y_);
+    x_ = whole.x0;
+    y_ = whole.y0;
+    columns_ = PixelRange{drawn.x0, drawn.x1}.relative_to(x_);
+    pixel_rows_ = PixelRange{drawn.y0, drawn.y1}.relative_to(y_);
     begin_ = entry_ = frame_.tile_begin[tile];
     end_ = frame_.tile_begin[tile + 1];
     blended_ = 0;
     choose_rows(choice);
     transmittance_.assign(rows_.size() * samples_, 1.0F);
-    live_in_cell_.assign(cell_of(height_ - 1, 0) + cells_x_, 0);
-    live_in_row_.assign(height_, 0);
+    live_in_cell_.assign(cell_of(pixel_rows_.last, 0) + cells_x_, 0);
+    live_in_row_.assign(pixel_rows_.last + 1, 0);
     live_ = 0;
     for (const int row : rows_) {
-        for (int column = phase_of(row); column < width_; column += kApart) {
+        for (int column = phase_of(row); column <= columns_.last; column += kApart) {
             ++live_in_cell_[cell_of(row, column)];
             ++live_in_row_[row];
             ++live_;
@@ -46,17 +46,17 @@ void CoarseTile::begin(int tile, const RowChoice& choice) {
 }
 
 void CoarseTile::choose_rows(const RowChoice& choice) {
-    const int blocks = (height_ + choice.height - 1) / choice.height;
-    const int first = std::min(choice.first, blocks - 1);
+    const PixelRange blocks{pixel_rows_.first / choice.height, pixel_rows_.last / choice.height};
+    const int first = std::min(choice.first, blocks.size() - 1);
     blocks_.clear();
     rows_.clear();
-    rows_from_.clear();
-    place_of_row_.assign(height_, 0);
+    rows_from_.assign(pixel_rows_.first, 0);
+    place_of_row_.assign(pixel_rows_.last + 1, 0);
     int height_of_blocks = 0;
-    for (int block = 0; block < blocks; ++block) {
-        const bool drawn = block % choice.apart == first % choice.apart;
-        const int begin = block * choice.height;
-        const int end = std::min(begin + choice.height, height_);
+    for (int block = blocks.first; block <= blocks.last; ++block) {
+        const bool drawn = (block - blocks.first) % choice.apart == first % choice.apart;
+        const int begin = std::max(block * choice.height, pixel_rows_.first);
+        const int end = std::min((block + 1) * choice.height, pixel_rows_.last + 1);
         if (drawn) {
             blocks_.push_back(block);
             height_of_blocks += end - begin;
@@ -70,8 +70,8 @@ void CoarseTile::choose_rows(const RowChoice& choice) {
         }
     }
     rows_from_.push_back(static_cast<int>(rows_.size()));
-    rows_per_drawn_ = static_cast<double>(height_) / static_cast<double>(rows_.size());
-    blocks_per_drawn_ = static_cast<double>(height_) / height_of_blocks;
+    rows_per_drawn_ = static_cast<double>(pixel_rows_.size()) / static_cast<double>(rows_.size());
+    blocks_per_drawn_ = static_cast<double>(pixel_rows_.size()) / height_of_blocks;
 }
 
 CoarseSpan CoarseTile::span_of(int row) const {
@@ -89,8 +89,8 @@ CoarseSpan CoarseTile::span_of(int row) const {
         left = std::floor(centre - reach) - static_cast<float>(options_.delta);
         right = std::ceil(centre + reach) + static_cast<float>(options_.delta);
     }
-    left = std::max(left, 0.0F);
-    right = std::min(right, static_cast<float>(width_ - 1));
+    left = std::max(left, static_cast<float>(columns_.first));
+    right = std::min(right, static_cast<float>(columns_.last));
     if (left <= right) {
         span.first = static_cast<int>(left);
         span.last = static_cast<int>(right);
@@ -119,9 +119,10 @@ bool CoarseTile::next() {
     slope_ = static_cast<float>(s.cov_b * inverse_c);
     det_over_c_ = static_cast<float>(s.det * inverse_c);
     const float reach = std::sqrt(static_cast<float>(s.q_end() * s.cov_c));
-    const auto most = static_cast<float>(height_ - 1);
-    first_row_ = static_cast<int>(std::clamp(std::ceil(mu_y_ - reach), 0.0F, most + 1));
-    last_row_ = static_cast<int>(std::clamp(std::floor(mu_y_ + reach), -1.0F, most));
+    const auto least = static_cast<float>(pixel_rows_.first);
+    const auto most = static_cast<float>(pixel_rows_.last);
+    first_row_ = static_cast<int>(std::clamp(std::ceil(mu_y_ - reach), least, most + 1));
+    last_row_ = static_cast<int>(std::clamp(std::floor(mu_y_ + reach), least - 1, most));
     spans_.clear();
     for (int r = first_drawn(); r < end_drawn(); ++r) {
         const CoarseSpan span = span_of(rows_[r]);
@@ -142,7 +143,7 @@ CoarseTile::Samples CoarseTile::samples_in(const CoarseSpan& span) const {
 double CoarseTile::live_share(const CoarseSpan& span) const {
     Samples in = samples_in(span);
     if (in.last < in.first) { // the nearest one
-        const int most = (width_ - 1 - phase_of(span.row) + kApart) / kApart - 1;
+        const int most = (columns_.last - phase_of(span.row) + kApart) / kApart - 1;
         in.first = in.last = std::clamp(in.first, 0, std::max(most, 0));
     }
     const float* row = transmittance_.data() + place_of_row_[span.row];

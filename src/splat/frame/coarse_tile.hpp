@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "splat/frame/frame_workload.hpp"
+#include "splat/frame/pixel_index.hpp"
 
 namespace degs {
 
@@ -44,11 +45,11 @@ public:
 
     // Number, place and size of the tile, and its list.
     int tile() const { return tile_; }
-    int x() const { return x_; } ///< px
+    int x() const { return x_; } ///< of its corner, raster px
     int y() const { return y_; }
-    int width() const { return width_; } ///< px inside the image
-    int height() const { return height_; }
-    double pixels() const { return 1.0 * width_ * height_; }
+    const PixelRange& columns() const { return columns_; } ///< of the tile, inside the image
+    const PixelRange& pixel_rows() const { return pixel_rows_; }
+    double pixels() const { return 1.0 * columns_.size() * pixel_rows_.size(); }
     double entries() const { return static_cast<double>(end_ - begin_); }
     double walked() const { return static_cast<double>(entry_ - begin_); } ///< solved so far
     /// What a drawn row stands for, and what a block with drawn rows stands for.
@@ -87,7 +88,9 @@ public:
 private:
     static constexpr int kApart = 4; ///< px between sampled columns
     /// Neighbouring rows have their columns apart; every row has one.
-    int phase_of(int row) const { return row * 3 % std::min(kApart, width_); }
+    int phase_of(int row) const {
+        return columns_.first + row * 3 % std::min(kApart, columns_.size());
+    }
     struct Samples {
         int first, last;
     };
@@ -101,7 +104,9 @@ private:
     const FrameWorkload& frame_;
     Options options_;
     int cells_x_, samples_; ///< cells and places for samples per row
-    int tile_ = 0, x_ = 0, y_ = 0, width_ = 0, height_ = 0;
+    TileGrid grid_;
+    int tile_ = 0, x_ = 0, y_ = 0;
+    PixelRange columns_, pixel_rows_;
     double rows_per_drawn_ = 1, blocks_per_drawn_ = 1;
     std::vector<int> blocks_;
     std::vector<int> rows_;                 ///< drawn ones, rising

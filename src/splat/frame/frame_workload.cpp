@@ -55,8 +55,9 @@ public:
         return runs_;
     }
     /// The tiles of the last call of cover() once more.
-    const std::vector<TileRun>& covered() const { return runs_; }
+    const std::vector<TileRun>& last_cover() const { return runs_; }
     std::size_t tile(int row, int column) const { return row * grid_.tiles_x() + column; }
+    const PixelBox& covered() const { return grid_.covered(); }
 
 private:
     TileGrid grid_;
@@ -114,7 +115,7 @@ ProjectedBlock project_block(const GaussianCloud& cloud, const Camera& camera,
     for (std::size_t i = begin; i < end; ++i) {
         ProjectedSplat splat;
         // In Reference mode the square decides what is on the screen, not the ellipse.
-        Cull cull = mode == TileMode::Exact ? projector.project(i, splat)
+        Cull cull = mode == TileMode::Exact ? projector.project(i, binner.covered(), splat)
                                             : projector.project_anywhere(i, splat);
         if (cull == Cull::None) {
             cull = binner.cover(splat).empty() ? Cull::OffScreen : projector.shade(i, splat);
@@ -128,7 +129,7 @@ ProjectedBlock project_block(const GaussianCloud& cloud, const Camera& camera,
         }
         block.splats.push_back(splat);
         block.means.emplace_back(cloud.means[i]);
-        block.tiles_touched.push_back(count_tiles(binner.covered(), binner, ends));
+        block.tiles_touched.push_back(count_tiles(binner.last_cover(), binner, ends));
     }
     return block;
 }
@@ -236,7 +237,7 @@ std::uint32_t FrameWorkload::visible_among(std::uint64_t first_gaussians) const 
 FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,
                                   TileMode mode, const ProjectionOptions& options) {
     check(cloud, camera, tile_size, options);
-    const TileGrid grid{camera.width, camera.height, tile_size};
+    const TileGrid grid(camera, tile_size);
     FrameWorkload work;
     work.camera = camera;
     work.projection = options;

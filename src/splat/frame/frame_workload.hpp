@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "splat/frame/projection.hpp"
+#include "splat/frame/tile_grid.hpp"
 
 namespace degs {
 
@@ -46,6 +47,7 @@ struct FrameWorkload {
         tiles_touched; ///< per splat (same index as splats): tiles that list it
 
     int tiles() const { return tiles_x * tiles_y; }
+    TileGrid grid() const { return TileGrid(camera, tile_size); }
     std::uint64_t tile_pairs() const { return tile_splats.size(); }
     /// Visible Gaussians among the first `first_gaussians` of the scene.
     std::uint32_t visible_among(std::uint64_t first_gaussians) const;

@@ -3,11 +3,19 @@
 
 #include <cstdint>
 
+#include "splat/frame/pixel_index.hpp"
+
 namespace degs {
 
 /// Bits begin .. end - 1 of a mask of neighbouring pixels; 0 <= begin <= end <= 32.
 inline std::uint32_t bits_between(int begin, int end) {
     return static_cast<std::uint32_t>((std::uint64_t{1} << end) - (std::uint64_t{1} << begin));
+}
+
+/// The bits of `pixels` in a mask of `count` neighbouring pixels, at most 32.
+inline std::uint32_t bits_of(const PixelRange& pixels, int count) {
+    const PixelRange inside = pixels.within({0, count - 1});
+    return inside.empty() ? 0U : bits_between(inside.first, inside.last + 1);
 }
 
 /// A bit for each of up to 128 neighbouring pixels.

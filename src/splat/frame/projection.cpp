@@ -38,7 +38,7 @@ struct ViewConstants {
     using Scalar = typename Numbers::Scalar;
     Vector3<Scalar> right, down, forward; ///< view axes in the world
     Scalar fx, fy;
-    Scalar half_width, half_height;    ///< px
+    Scalar middle_x, middle_y;         ///< of the raster, px
     Scalar most_slope_x, most_slope_y; ///< limits of x/z and y/z in the Jacobian
     Scalar near_plane, dilation, alpha_min, least_compensation;
     Scalar half, one, two;
@@ -46,10 +46,10 @@ struct ViewConstants {
     ViewConstants(const Numbers& n, const Camera& c, const ProjectionOptions& o)
         : right(vector_in(n, c.camera_to_world[0])), down(vector_in(n, c.camera_to_world[1])),
           forward(vector_in(n, c.camera_to_world[2])), fx(n(c.fx)), fy(n(c.fy)),
-          half_width(n(0.5 * c.width)), half_height(n(0.5 * c.height)),
-          most_slope_x(n(o.jacobian_clamp * c.width / (2.0 * c.fx))),
-          most_slope_y(n(o.jacobian_clamp * c.height / (2.0 * c.fy))), near_plane(n(o.near_plane)),
-          dilation(n(o.dilation)), alpha_min(n(o.alpha_min)),
+          middle_x(n(c.raster_middle().x)), middle_y(n(c.raster_middle().y)),
+          most_slope_x(n(o.jacobian_clamp * (2.0 * c.raster_middle().x) / (2.0 * c.fx))),
+          most_slope_y(n(o.jacobian_clamp * (2.0 * c.raster_middle().y) / (2.0 * c.fy))),
+          near_plane(n(o.near_plane)), dilation(n(o.dilation)), alpha_min(n(o.alpha_min)),
           least_compensation(n(kLeastCompensation)), half(n(0.5)), one(n(1.0)), two(n(2.0)) {}
 };
 
@@ -135,8 +135,8 @@ void ProjectorIn<Numbers>::set_opacity(const Scalar& opacity, ProjectedSplat& ou
 template <class Numbers>
 void ProjectorIn<Numbers>::set_mean(const Scalar& x, const Scalar& y, const Scalar& z,
                                     ProjectedSplat& out) const {
-    out.mu_x = value_of(k_.fx * x / z + k_.half_width - k_.half);
-    out.mu_y = value_of(k_.fy * y / z + k_.half_height - k_.half);
+    out.mu_x = value_of(k_.fx * x / z + k_.middle_x - k_.half);
+    out.mu_y = value_of(k_.fy * y / z + k_.middle_y - k_.half);
 }
 
 /// The dilated covariance from the rows u, v of J Rv R S (2x3). The determinant is Cauchy-Binet's
@@ -248,23 +248,27 @@ std::unique_ptr<Projector> make_rounding_projector(const GaussianCloud& cloud, c
 }
 
 Cull Projector::project(std::size_t index, ProjectedSplat& out) const {
+    return project(index, image_, out);
+}
+
+Cull Projector::project(std::size_t index, const PixelBox& bounds, ProjectedSplat& out) const {
     const Cull cull = project_anywhere(index, out);
     if (cull != Cull::None) {
         return cull;
     }
-    return pixel_box(out, width_, height_).empty() ? Cull::OffScreen : Cull::None;
+    return pixel_box(out, bounds).empty() ? Cull::OffScreen : Cull::None;
 }
 
-PixelBox pixel_box(const ProjectedSplat& splat, int width, int height) {
+PixelBox pixel_box(const ProjectedSplat& splat, const PixelBox& bounds) {
     const double reach_x = std::sqrt(splat.q_end() * splat.cov_a);
     const double reach_y = std::sqrt(splat.q_end() * splat.cov_c);
     const double wide_x = reach_x + pixel_slack(std::abs(splat.mu_x) + reach_x);
     const double wide_y = reach_y + pixel_slack(std::abs(splat.mu_y) + reach_y);
     PixelBox box;
-    box.x0 = index_within(std::ceil(splat.mu_x - wide_x), 0, width);
-    box.x1 = index_within(std::floor(splat.mu_x + wide_x), -1, width - 1);
-    box.y0 = index_within(std::ceil(splat.mu_y - wide_y), 0, height);
-    box.y1 = index_within(std::floor(splat.mu_y + wide_y), -1, height - 1);
+    box.x0 = index_within(std::ceil(splat.mu_x - wide_x), bounds.x0, bounds.x1 + 1.0);
+    box.x1 = index_within(std::floor(splat.mu_x + wide_x), bounds.x0 - 1.0, bounds.x1);
+    box.y0 = index_within(std::ceil(splat.mu_y - wide_y), bounds.y0, bounds.y1 + 1.0);
+    box.y1 = index_within(std::floor(splat.mu_y + wide_y), bounds.y0 - 1.0, bounds.y1);
     return box;
 }
 

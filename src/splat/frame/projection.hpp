@@ -8,6 +8,7 @@
 #include "splat/frame/pixel_rules.hpp"
 #include "splat/model/camera.hpp"
 #include "splat/model/gaussian.hpp"
+#include "splat/model/pixel_box.hpp"
 #include "splat/numbers/projection_numbers.hpp"
 
 namespace degs {
@@ -21,9 +22,10 @@ constexpr double kNoCut = 12;
 
 /// Constants of the projection; the defaults are those of the original 3DGS rasteriser, in double.
 struct ProjectionOptions {
-    double near_plane = 0.2;        ///< scene units; splats at or before it are dropped
-    double dilation = 0.3;          ///< px^2, low-pass filter added to both variances
-    double jacobian_clamp = 1.3;    ///< times tan(fov/2); limits x/z and y/z in the Jacobian only
+    double near_plane = 0.2; ///< scene units; splats at or before it are dropped
+    double dilation = 0.3;   ///< px^2, low-pass filter added to both variances
+    /// Times tan(fov/2) of the camera's raster; limits x/z and y/z in the Jacobian only.
+    double jacobian_clamp = 1.3;
     double alpha_min = 1.0 / 255.0; ///< support threshold (paper Eq. 7)
     double cut = kNoCut;            ///< largest q at which a splat is drawn, the limit included
     SplatOrder order = SplatOrder::Depth;
@@ -39,8 +41,8 @@ constexpr double kLeastCompensation = 0.000025;
 
 /// A Gaussian on the screen, in the format that projected it; a and opacity fit b, c, det and Q_th
 /// before the cut.
-/// q(x, y) = A dx^2 + 2 B dx dy + C dy^2 with dx = x - mu_x; pixel (i, j) is sampled at integer
-/// (i, j) (mu is shifted by -0.5 accordingly).
+/// q(x, y) = A dx^2 + 2 B dx dy + C dy^2 with dx = x - mu_x; pixel (i, j) of the camera's raster is
+/// sampled at integer (i, j) (mu is shifted by -0.5 accordingly).
 struct ProjectedSplat {
     double mu_x = 0, mu_y = 0;              ///< px
     double cov_a = 0, cov_b = 0, cov_c = 0; ///< dilated covariance xx, xy, yy; px^2
@@ -64,21 +66,15 @@ struct ProjectedSplat {
 /// or det is not positive (only possible without dilation, or where squares vanish in the format).
 enum class Cull { None, Near, Transparent, Degenerate, OffScreen };
 
-/// Inclusive ranges of pixels, clipped to the image.
-struct PixelBox {
-    int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
-    bool empty() const { return x1 < x0 || y1 < y0; }
-};
-
 /// Tolerance of every conservative pixel test, px: far above the rounding of a coordinate (about
 /// 1e-16 of its magnitude), far below anything that matters. Grows with huge coordinates.
 inline double pixel_slack(double magnitude) {
     return 1e-6 + 1e-12 * magnitude;
 }
 
-/// The pixel centres within the bounding box mu +- sqrt(Q_th cov) of the ellipse, widened by
-/// `pixel_slack`; safe against coordinates far beyond the range of int.
-PixelBox pixel_box(const ProjectedSplat& splat, int width, int height);
+/// The pixel centres of `bounds` within the bounding box mu +- sqrt(Q_th cov) of the ellipse,
+/// widened by `pixel_slack`; safe against coordinates far beyond the range of int.
+PixelBox pixel_box(const ProjectedSplat& splat, const PixelBox& bounds);
 
 /// Projects and shades the Gaussians of a scene for one camera, in the format of the options. The
 /// mean's offset from the camera is formed in double and rounded once: a scene is stored relative
@@ -103,12 +99,14 @@ public:
 
     /// OffScreen means: no pixel centre of the image lies inside the ellipse's bounding box.
     Cull project(std::size_t index, ProjectedSplat& out) const;
+    /// Does so for any part of the raster.
+    Cull project(std::size_t index, const PixelBox& bounds, ProjectedSplat& out) const;
 
 protected:
-    explicit Projector(const Camera& camera) : width_(camera.width), height_(camera.height) {}
+    explicit Projector(const Camera& camera) : image_(camera.window()) {}
 
 private:
-    int width_, height_;
+    PixelBox image_;
 };
 
 /// The cloud outlives the projector.

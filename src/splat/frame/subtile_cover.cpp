@@ -40,12 +40,10 @@ bool OrientedBox::meets(double x, double y, double size) const {
 
 SubtileGrid::SubtileGrid(int tile_size, int side) : side_(side), per_side_(tile_size / side) {}
 
-SubtileMask SubtileGrid::inside(int width, int height) const {
+SubtileMask SubtileGrid::holding(const PixelRange& columns, const PixelRange& rows) const {
     SubtileMask mask = 0;
-    for (int row = 0; row < per_side_ && row * side_ < height; ++row) {
-        for (int column = 0; column < per_side_ && column * side_ < width; ++column) {
-            mask |= SubtileMask{1} << (row * per_side_ + column);
-        }
+    for (int row = rows.first / side_; row <= rows.last / side_; ++row) {
+        mask |= of_pixels(row * side_, columns);
     }
     return mask;
 }

@@ -42,8 +42,8 @@ public:
     int side() const { return side_; }
     int per_side() const { return per_side_; }
     int count() const { return per_side_ * per_side_; }
-    /// Sub-tiles with a pixel inside the image, for a tile cut to width x height px by its border.
-    SubtileMask inside(int width, int height) const;
+    /// Sub-tiles with a pixel among these columns and rows of the tile, which it has.
+    SubtileMask holding(const PixelRange& columns, const PixelRange& rows) const;
     /// Sub-tiles of the tile at (x, y) whose areas meet the box.
     SubtileMask meeting(const OrientedBox& box, int x, int y) const {
         return meeting(box, x, y, ~SubtileMask{0});

@@ -12,23 +12,23 @@ namespace {
 /// The columns of an ellipse on one pixel row at a time.
 class RowSolver {
 public:
-    RowSolver(const ProjectedSplat& splat, int width)
+    RowSolver(const ProjectedSplat& splat, const PixelBox& bounds)
         : mu_x_(splat.mu_x), mu_y_(splat.mu_y), q_end_(splat.q_end()),
           slope_(splat.cov_b / splat.cov_c), inverse_c_(1.0 / splat.cov_c),
-          det_over_c_(splat.det / splat.cov_c), width_(width) {}
+          det_over_c_(splat.det / splat.cov_c), first_(bounds.x0), last_(bounds.x1) {}
 
     /// Moving down, the centre moves to the right (or stays).
     bool leans_right() const { return slope_ >= 0; }
 
-    /// The pixels of row y inside the ellipse, clipped to the image.
+    /// The pixels of row y inside the ellipse, clipped to the bounds.
     PixelRange solve(int y) const {
         const double dy = y - mu_y_;
         const double centre = mu_x_ + slope_ * dy;
         const double rest = std::max(0.0, q_end_ - dy * dy * inverse_c_);
         const double half = std::sqrt(det_over_c_ * rest);
         const double wide = half + pixel_slack(std::abs(centre) + std::abs(mu_x_));
-        const double low = std::max(0.0, std::ceil(centre - wide));
-        const double high = std::min(width_ - 1.0, std::floor(centre + wide));
+        const double low = std::max(first_, std::ceil(centre - wide));
+        const double high = std::min(last_, std::floor(centre + wide));
         if (!(low <= high)) {
             return {};
         }
@@ -37,7 +37,7 @@ public:
 
 private:
     double mu_x_, mu_y_, q_end_, slope_, inverse_c_, det_over_c_;
-    int width_;
+    double first_, last_; ///< columns of the bounds
 };
 
 /// Collects the tiles of consecutive pixel rows of one tile row. Rows arrive such that the centre
@@ -77,39 +77,42 @@ private:
 };
 
 /// Feeds the pixel rows top .. bottom of one row of tiles to the collector.
-void cover_tile_row(const RowSolver& solver, int tile_size, int top, int bottom,
+void cover_tile_row(const RowSolver& solver, const TileGrid& grid, int top, int bottom,
                     RunCollector& collector) {
+    const int size = grid.tile_size(), from = grid.first_column();
     const int step = solver.leans_right() ? 1 : -1;
     int y = step > 0 ? top : bottom;
     for (int left = bottom - top; left >= 0 && !collector.complete(); --left, y += step) {
         const PixelRange columns = solver.solve(y);
         if (!columns.empty()) {
-            collector.add(columns.first / tile_size, columns.last / tile_size);
+            collector.add(columns.first / size - from, columns.last / size - from);
         }
     }
     collector.close();
 }
 
 /// int() truncates toward zero as in the original; clamped first, so that huge radii are safe.
-int clamped_tile(double tile, int tiles) {
-    return index_within(tile, 0, tiles);
+/// Counted from the image's first tile.
+int clamped_tile(double tile, int first, int tiles) {
+    return index_within(tile, first, first + tiles) - first;
 }
 
 } // namespace
 
 void cover_ellipse(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs) {
     runs.clear();
-    const PixelBox box = pixel_box(splat, grid.width, grid.height);
+    const PixelBox box = pixel_box(splat, grid.covered());
     if (box.empty()) {
         return;
     }
-    const int size = grid.tile_size;
-    const RowSolver solver(splat, grid.width);
+    const int size = grid.tile_size(), from = grid.first_column();
+    const RowSolver solver(splat, grid.covered());
     for (int row = box.y0 / size; row <= box.y1 / size; ++row) {
         const int top = std::max(box.y0, row * size);
         const int bottom = std::min(box.y1, row * size + size - 1);
-        RunCollector collector(row, box.x0 / size, box.x1 / size, runs);
-        cover_tile_row(solver, size, top, bottom, collector);
+        RunCollector collector(row - grid.first_row(), box.x0 / size - from, box.x1 / size - from,
+                               runs);
+        cover_tile_row(solver, grid, top, bottom, collector);
     }
 }
 
@@ -120,11 +123,17 @@ void cover_square(const ProjectedSplat& splat, const TileGrid& grid, std::vector
     // mid^2 - det without cancellation; the floor of 0.1 px^4 makes every radius at least 3 px.
     const double root = half_difference * half_difference + splat.cov_b * splat.cov_b;
     const double radius = std::ceil(3.0 * std::sqrt(mid + std::sqrt(std::max(0.1, root))));
-    const double size = grid.tile_size;
-    const int x0 = clamped_tile((splat.mu_x - radius) / size, grid.tiles_x());
-    const int y0 = clamped_tile((splat.mu_y - radius) / size, grid.tiles_y());
-    const int x1 = clamped_tile((splat.mu_x + radius + size - 1) / size, grid.tiles_x());
-    const int y1 = clamped_tile((splat.mu_y + radius + size - 1) / size, grid.tiles_y());
+    const double size = grid.tile_size();
+    const auto column = [&](double x) {
+        return clamped_tile(x / size, grid.first_column(), grid.tiles_x());
+    };
+    const auto row_of = [&](double y) {
+        return clamped_tile(y / size, grid.first_row(), grid.tiles_y());
+    };
+    const int x0 = column(splat.mu_x - radius);
+    const int y0 = row_of(splat.mu_y - radius);
+    const int x1 = column(splat.mu_x + radius + size - 1);
+    const int y1 = row_of(splat.mu_y + radius + size - 1);
     for (int row = y0; row < y1 && x0 < x1; ++row) {
         runs.push_back({row, x0, x1 - 1});
     }

@@ -4,18 +4,11 @@
 #include <vector>
 
 #include "splat/frame/projection.hpp"
+#include "splat/frame/tile_grid.hpp"
 
 namespace degs {
 
-/// How an image is cut into square tiles; the last column and row may be partial.
-struct TileGrid {
-    int width = 0, height = 0; ///< px
-    int tile_size = 1;         ///< px
-    int tiles_x() const { return (width + tile_size - 1) / tile_size; }
-    int tiles_y() const { return (height + tile_size - 1) / tile_size; }
-};
-
-/// Tiles first .. last (inclusive) of one row of tiles.
+/// Tiles first .. last (inclusive) of one row of tiles, counted from the image's first tile.
 struct TileRun {
     int row = 0, first = 0, last = 0;
 };

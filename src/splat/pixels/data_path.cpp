@@ -320,9 +320,10 @@ private:
         BlendRecord<T> record = blends_[test.splat];
         if (splat.cut) {
             constexpr int kPixels = 32; // of a mask
+            const int top = test.y - test.row, bottom = top + rows_.rows();
             record.limit +=
                 splat.margin(x, y, std::max(std::abs(test.x - x), std::abs(test.x + kPixels - x)),
-                             std::max(std::abs(test.y - y), std::abs(test.y + rows - y)));
+                             std::max(std::abs(top - y), std::abs(bottom - y)));
         }
         product_(products_.data(), rows, splat.row(x, y), record, refuse_, pixels_, outcomes);
     }

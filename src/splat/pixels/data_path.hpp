@@ -88,7 +88,7 @@ struct BlendTask {
 struct PixelTest {
     std::uint32_t splat = 0;
     std::uint32_t mask = 0; ///< bit i: the pixel at column + i is tested
-    int x = 0, y = 0;       ///< image pixel of mask bit 0
+    int x = 0, y = 0;       ///< raster pixel of mask bit 0
     int row = 0;            ///< inside the tile
     int column = 0;         ///< inside the tile, of mask bit 0
     int context = 0;        ///< tile context of the Pixel Buffer
@@ -102,6 +102,15 @@ struct BlendOutcome {
     std::uint32_t terminated = 0; ///< inside, but the pixel has ended or refuses the splat
     std::uint32_t ended = 0;      ///< pixels that ended now
 };
+
+/// Leaves the pixels of a span that lie among `columns` of the tile. What is counted from its base
+/// stays as it was solved. False if there are none.
+inline bool cut(RowSpan& span, const PixelRange& columns) {
+    const PixelRange left = PixelRange{span.x0, span.x0 + span.length - 1}.within(columns);
+    span.x0 = inside_tile(left.first);
+    span.length = inside_tile(left.size());
+    return !left.empty();
+}
 
 /// One finished pixel.
 struct PixelValue {
@@ -120,9 +129,10 @@ constexpr int kMostDrawnRows = 64;
 struct TileRows {
     std::uint32_t splat = 0;
     int context = 0;                    ///< tile context of the pixels
-    int x_begin = 0, x_end = 0;         ///< columns of the tile, image px
-    int tile_y = 0;                     ///< image row of the tile's row 0
+    int x_begin = 0, x_end = 0;         ///< columns of the tile, raster px
+    int tile_y = 0;                     ///< raster row of the tile's row 0
     int first = 0, last = -1, step = 1; ///< rows inside the tile: first, first + step, ... last
+    PixelRange drawn{0, kMostDrawnColumns - 1}; ///< columns inside the tile that the image has
     bool tests = false; ///< rows are as wide as the splat's box, and every pixel tests itself
 };
 
@@ -149,16 +159,16 @@ public:
     virtual void remove_frame(std::uint32_t first, std::size_t splats) = 0;
     /// A hint that the rows of the splat will be needed soon. It changes nothing but host time.
     virtual void expect(std::uint32_t splat) const = 0;
-    /// The image rows (unclipped) that the splat's ellipse meets.
+    /// The raster's rows (unclipped) that the splat's ellipse meets.
     virtual PixelRange rows(std::uint32_t splat) const = 0;
-    /// The image rows that the ellipse meets in columns [x_begin, x_end). May name a row too many
-    /// at either end (rounding), never one too few; empty if the ellipse passes by.
+    /// The raster's rows that the ellipse meets in columns [x_begin, x_end). May name a row too
+    /// many at either end (rounding), never one too few; empty if the ellipse passes by.
     virtual PixelRange rows_in_columns(std::uint32_t splat, int x_begin, int x_end) const = 0;
-    /// The image columns (unclipped) that the splat's ellipse meets.
+    /// The raster's columns (unclipped) that the splat's ellipse meets.
     virtual PixelRange columns(std::uint32_t splat) const = 0;
     /// The columns of the bounding box of the ellipse as it was projected, to the pixel.
     virtual PixelRange box_columns(std::uint32_t splat) const = 0;
-    /// Solves image row `y` for the columns [x_begin, x_end) of a tile whose top row is `tile_y`
+    /// Solves raster row `y` for the columns [x_begin, x_end) of a tile whose top row is `tile_y`
     /// (paper Eq. 12-15, 19). Nothing if no pixel of the tile is covered.
     virtual std::optional<RowSpan> solve_row(std::uint32_t splat, int y, int x_begin, int x_end,
                                              int tile_y) const = 0;
@@ -178,8 +188,8 @@ public:
     /// too many, never one too few. Like tested_columns() for the completed square alone.
     virtual PixelRange tested_rows(std::uint32_t splat, const PixelRange& columns,
                                    const PixelRange& rows) const = 0;
-    /// The columns among [x_begin, x_end) whose pixels on image row `y` pass test()'s q <= Q_th, to
-    /// the last rounding. They are neighbours; there may be none.
+    /// The columns among [x_begin, x_end) whose pixels on raster row `y` pass test()'s q <= Q_th,
+    /// to the last rounding. They are neighbours; there may be none.
     virtual PixelRange tested_columns(std::uint32_t splat, int y, int x_begin, int x_end) const = 0;
     /// True if rounding may let test() find pixels inside that lie visibly outside the ellipse of
     /// the splat as it was projected: number sets.

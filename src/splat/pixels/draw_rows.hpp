@@ -19,12 +19,12 @@ void draw_row_by_row(Path& path, const TileRows& rows, const Solved& solved, Dra
     constexpr int kTasks = 32; // of a BlendTask
     int index = 0;
     for (int row = rows.first; row <= rows.last; row += rows.step, ++drawn, ++index) {
-        const RowSpan& span = rows.tests ? row_of_box(path, rows.splat, rows.tile_y + row,
-                                                      rows.x_begin, rows.x_end, rows.tile_y)
-                                               .value_or(RowSpan())
-                                         : solved(index, row);
+        RowSpan span = rows.tests ? row_of_box(path, rows.splat, rows.tile_y + row, rows.x_begin,
+                                               rows.x_end, rows.tile_y)
+                                        .value_or(RowSpan())
+                                  : solved(index, row);
         *drawn = DrawnRow();
-        if (span.length == 0) {
+        if (!cut(span, rows.drawn)) {
             continue;
         }
         drawn->x0 = span.x0;

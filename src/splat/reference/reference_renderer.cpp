@@ -41,14 +41,14 @@ struct SplatTerms {
 class TilePainter {
 public:
     explicit TilePainter(const FrameWorkload& work)
-        : work_(work), stride_(clipped(work.tile_size, work.camera.width)),
+        : work_(work), grid_(work.grid()), stride_(clipped(work.tile_size, work.camera.width)),
           pixels_(stride_ * clipped(work.tile_size, work.camera.height)),
           live_in_row_(clipped(work.tile_size, work.camera.height)) {}
 
     void begin(int tile);
     bool finished() const { return live_ == 0; }
     void paint(const ProjectedSplat& splat);
-    /// `left`, `top`: the image's first pixel in the frame.
+    /// `left`, `top`: the image's first pixel in the raster.
     void write(Image& image, int left, int top, ReferenceCounts& counts) const;
 
 private:
@@ -60,6 +60,7 @@ private:
               int first, int last, Pixel* row) const;
 
     const FrameWorkload& work_;
+    TileGrid grid_;
     std::size_t stride_; ///< pixels per row of the tile
     std::vector<Pixel> pixels_;
     std::vector<int> live_in_row_; ///< pixels that are not done
@@ -68,11 +69,11 @@ private:
 };
 
 void TilePainter::begin(int tile) {
-    const int size = work_.tile_size;
-    x0_ = tile % work_.tiles_x * size;
-    y0_ = tile / work_.tiles_x * size;
-    x1_ = std::min(x0_ + size, work_.camera.width) - 1;
-    y1_ = std::min(y0_ + size, work_.camera.height) - 1;
+    const PixelBox box = grid_.drawn_of(tile);
+    x0_ = box.x0;
+    y0_ = box.y0;
+    x1_ = box.x1;
+    y1_ = box.y1;
     std::fill(pixels_.begin(), pixels_.end(), Pixel{});
     std::fill(live_in_row_.begin(), live_in_row_.end(), x1_ - x0_ + 1);
     live_ = (x1_ - x0_ + 1) * (y1_ - y0_ + 1);

@@ -111,7 +111,7 @@ std::vector<Place> traverse(gcc::Traversal& traversal, const gcc::Footprint& foo
                             const JobTile& view, Place seed, int& seeds) {
     const int side = footprint.side();
     std::vector<Place> order;
-    traversal.begin(footprint, (view.width + side - 1) / side, (view.height + side - 1) / side);
+    traversal.begin(footprint, {0, (view.width - 1) / side}, {0, (view.height - 1) / side});
     seeds = 0;
     std::optional<gcc::Traversal::Window> start{{seed.first, seed.second}};
     for (; start; start = traversal.find_missed()) {

@@ -109,8 +109,7 @@ TEST(Colmap, ReducesLensesToTheirPinholeAndSaysWhatIsLost) {
     const ColmapLens opencv{1, 4, 64, 48, {100, 100, 32, 24, 0, 0, 0, 0}};
     EXPECT_TRUE(notes_of(opencv).empty());
     const ColmapLens full{1, 6, 64, 48, {100, 100, 29, 24, 0, 0, 0, 0, 0, 0, 0, 0}};
-    ASSERT_EQ(notes_of(full).size(), 1U);
-    EXPECT_THAT(notes_of(full)[0], test::IsSentenceWith("principal points up to 3 px off"));
+    EXPECT_TRUE(notes_of(full).empty());
     const ColmapLens wide{1, 3, 64, 48, {100, 32, 24, 0, 1}};
     EXPECT_THAT(notes_of(wide).at(0), test::IsSentenceWith("up to 1.02 px")); // 40 px x 0.16^2
     const ColmapLens tangential{1, 4, 64, 48, {100, 100, 32, 24, 0, 0, 0.01, 0}};

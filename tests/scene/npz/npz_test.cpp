@@ -9,6 +9,7 @@
 #include "scene/npz/npy_array.hpp"
 #include "scene/npz/npz_cameras.hpp"
 #include "scene/scene.hpp"
+#include "tests/scene/cameras/seen_pixel.hpp"
 #include "tests/scene/scene_fixture.hpp"
 #include "tests/scene/zip_builder.hpp"
 
@@ -66,7 +67,7 @@ struct NpzBuilder {
     }
     void add_cameras() {
         add("viewmats", "(1, 4, 4)", {0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1});
-        add("Ks", "(1, 3, 3)", {50, 0, 32, 0, 60, 24, 0, 0, 1});
+        add("Ks", "(1, 3, 3)", {50, 0, 29.5F, 0, 60, 26, 0, 0, 1});
         zip.files.emplace_back("width.npy", npy("<i8", "()", raw<std::int64_t>({64})));
         zip.files.emplace_back("height.npy", npy(">i4", "(1,)", std::string("\0\0\0\x30", 4)));
     }
@@ -176,14 +177,16 @@ TEST(Npz, ReadsCameras) {
     EXPECT_EQ(camera.position, glm::dvec3(-2, 1, -3)); // -R^T t
     EXPECT_EQ(camera.camera_to_world[0], glm::dvec3(0, -1, 0));
     EXPECT_TRUE(content.notes.empty());
+    const glm::dmat3 to_camera(glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1));
+    test::expect_pixels(camera, {{50, 60, 29.5, 26}, to_camera, {1, 2, 3}});
     const test::Folder folder;
     const std::string path = folder.write("scene.npz", npz.zip.file());
     EXPECT_EQ(camera_count(path), 1U);
     EXPECT_EQ(load_scene(path).cameras[0].name, "view 0");
     npz.remove("Ks");
-    npz.add("Ks", "(1, 3, 3)", {50, 0, 30, 0, 60, 24, 0, 0, 1});
-    ASSERT_EQ(content_of(npz).notes.size(), 1U);
-    EXPECT_THAT(content_of(npz).notes[0], IsSentenceWith("up to 2.0"));
+    npz.add("Ks", "(1, 3, 3)", {50, 0, 1e8F, 0, 60, 24, 0, 0, 1});
+    EXPECT_THAT(test::complaint([&] { content_of(npz); }),
+                IsSentenceWith("too far from the middle"));
 }
 
 TEST(Npz, GardenIsThePlyThatWasMadeFromIt) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/scene.hpp"
+#include "tests/scene/cameras/seen_pixel.hpp"
 #include "tests/scene/ply/ply_builder.hpp"
 #include "tests/scene/scene_fixture.hpp"
 
@@ -120,10 +121,14 @@ TEST(PlyCamera, LinearColoursAreAWarning) {
     EXPECT_THAT(scene_of(sharp).notes, Not(Contains(HasSubstr("colo"))));
 }
 
-TEST(PlyCamera, PrincipalPointsOffTheMiddleAreAWarning) {
+TEST(PlyCamera, PrincipalPointsAreWhereTheFilePutsThem) {
     SharpBuilder sharp;
     sharp.intrinsic[2] = 300;
-    EXPECT_THAT(scene_of(sharp).notes, Contains(HasSubstr("principal points up to 20 px off")));
+    test::expect_pixels(scene_of(sharp).cameras.at(0), {{500, 510, 300, 240}});
+    EXPECT_THAT(scene_of(sharp).notes, Not(Contains(HasSubstr("principal"))));
+    sharp.intrinsic[2] = 1e7F;
+    EXPECT_THAT(test::complaint([&] { scene_of(sharp); }),
+                IsSentenceWith("too far from the middle"));
 }
 
 TEST(PlyCamera, OtherNumbersAreNoCamera) {

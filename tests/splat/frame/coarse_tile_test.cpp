@@ -38,7 +38,7 @@ CoarseCounts draw(const FrameWorkload& frame, const CoarseTile::Options& options
                 counts.rows += tile.rows_per_drawn();
                 counts.tasks += tile.rows_per_drawn() * span.length();
                 EXPECT_GE(span.first, 0);
-                EXPECT_LT(span.last, tile.width());
+                EXPECT_LT(span.last, tile.columns().size());
                 EXPECT_GE(span.row, tile.first_row());
                 EXPECT_LE(span.row, tile.last_row());
             }
@@ -90,7 +90,7 @@ TEST(CoarseTile, DrawsARowOfAnyTileAndPixelsOfAnyWidth) {
     CoarseTile tile(frame, {16, 1});
     tile.begin(3, {1, 16, 15}); // one pixel wide and high
     EXPECT_EQ(tile.rows().size(), 1U);
-    EXPECT_EQ(tile.width(), 1);
+    EXPECT_EQ(tile.columns().size(), 1);
     ASSERT_TRUE(tile.next());
     ASSERT_EQ(tile.spans().size(), 1U);
     EXPECT_EQ(tile.live_share(tile.spans().front()), 1);

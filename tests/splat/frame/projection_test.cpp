@@ -110,7 +110,7 @@ TEST(Projection, LargeSplatJustBehindTheNearPlaneIsFinite) {
         ASSERT_EQ(one.run(), Cull::None);
         EXPECT_TRUE(std::isfinite(one.splat.conic_a()));
         EXPECT_GT(one.splat.det, 0);
-        const PixelBox box = pixel_box(one.splat, 64, 48);
+        const PixelBox box = pixel_box(one.splat, {0, 0, 63, 47});
         EXPECT_EQ(box.x1 - box.x0, 63);
         EXPECT_EQ(box.y1 - box.y0, 47);
     }
@@ -147,7 +147,7 @@ TEST(Projection, OpacityAroundTheThreshold) {
     exact.options.alpha_min = 0.25;
     ASSERT_EQ(exact.run(), Cull::None);
     EXPECT_EQ(exact.splat.q_threshold, 0);
-    const PixelBox box = pixel_box(exact.splat, 65, 49);
+    const PixelBox box = pixel_box(exact.splat, {0, 0, 64, 48});
     EXPECT_EQ(box.x0, 32);
     EXPECT_EQ(box.x1, 32);
     EXPECT_EQ(box.y0, 24);

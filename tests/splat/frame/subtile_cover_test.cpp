@@ -51,9 +51,9 @@ TEST_P(SubtileCover, RandomSplatsAgainstBruteForce) {
         const SubtileMask box = grid.meeting(OrientedBox(s), x0, y0);
         const SubtileMask exact = brute_mask(s, x0, y0, shape.side, grid.per_side(), width, height);
         ASSERT_EQ(exact & ~box, 0U) << "trial " << trial;
-        ASSERT_EQ(exact & ~grid.inside(width, height), 0U) << "trial " << trial;
-        skipped_by_both += exact != grid.inside(width, height) ? 1 : 0;
-        skipped_by_box += box != grid.inside(shape.tile, shape.tile) ? 1 : 0;
+        ASSERT_EQ(exact & ~grid.holding({0, width - 1}, {0, height - 1}), 0U) << "trial " << trial;
+        skipped_by_both += exact != grid.holding({0, width - 1}, {0, height - 1}) ? 1 : 0;
+        skipped_by_box += box != grid.holding({0, shape.tile - 1}, {0, shape.tile - 1}) ? 1 : 0;
     }
     EXPECT_GT(skipped_by_box, 400);
     EXPECT_GT(skipped_by_both, 400);
@@ -112,10 +112,10 @@ TEST(SubtileGrid, NamesTheSubtilesOfPixelsInARow) {
 TEST(SubtileGrid, BitsRunByRowsAndStopAtTheImage) {
     const SubtileGrid grid(16, 8);
     EXPECT_EQ(grid.count(), 4);
-    EXPECT_EQ(grid.inside(16, 16), 0xFU);
-    EXPECT_EQ(grid.inside(9, 8), 0x3U);
-    EXPECT_EQ(grid.inside(8, 9), 0x5U);
-    EXPECT_EQ(grid.inside(1, 1), 0x1U);
+    EXPECT_EQ(grid.holding({0, 15}, {0, 15}), 0xFU);
+    EXPECT_EQ(grid.holding({0, 8}, {0, 7}), 0x3U);
+    EXPECT_EQ(grid.holding({0, 7}, {0, 8}), 0x5U);
+    EXPECT_EQ(grid.holding({0, 0}, {0, 0}), 0x1U);
     EXPECT_EQ(grid.meeting(OrientedBox(make_splat(28, 36, 0.6, 0.6, 0, 1.0)), 16, 32), 0x2U);
     EXPECT_EQ(grid.meeting(OrientedBox(make_splat(20, 44, 0.6, 0.6, 0, 1.0)), 16, 32), 0x4U);
 }

@@ -33,14 +33,14 @@ TileSet exact_tiles(const ProjectedSplat& splat, const TileGrid& grid) {
 /// Every pixel of the image against q <= Q_th, in long double and with the literal conic.
 TileSet brute_tiles(const ProjectedSplat& s, const TileGrid& grid) {
     TileSet tiles;
-    for (int y = 0; y < grid.height; ++y) {
-        for (int x = 0; x < grid.width; ++x) {
+    for (int y = 0; y <= grid.image().y1; ++y) {
+        for (int x = 0; x <= grid.image().x1; ++x) {
             const long double dx = x - static_cast<long double>(s.mu_x);
             const long double dy = y - static_cast<long double>(s.mu_y);
             const long double q =
                 (s.cov_c * dx * dx - 2.0L * s.cov_b * dx * dy + s.cov_a * dy * dy) / s.det;
             if (q <= s.q_threshold) {
-                tiles.emplace(y / grid.tile_size, x / grid.tile_size);
+                tiles.emplace(y / grid.tile_size(), x / grid.tile_size());
             }
         }
     }

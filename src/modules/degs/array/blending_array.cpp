@@ -271,8 +271,9 @@ void ArraySlice::start_tile(Context& context, TileNumber number) {
     for (int s = 0; s < segments_; ++s) {
         const int row = s / segments_per_row_ * slices_ + index_;
         const int column = s % segments_per_row_ * segment_length_;
-        const int width = std::clamp(tile.width - column, 0, segment_length_);
-        context.live_in_segment[s] = row < tile.height ? width : 0;
+        const PixelRange segment{column, column + segment_length_ - 1};
+        const int drawn = segment.within(tile.drawn_columns()).size();
+        context.live_in_segment[s] = tile.drawn_rows().holds(row) ? drawn : 0;
         context.live_pixels += context.live_in_segment[s];
     }
 }

@@ -240,7 +240,7 @@ DrawingThread::Tile& DrawingThread::open(TileNumber number) {
     free_tiles_.pop_back();
     tile.job = slot.job;
     tile.canvas = canvases_.open();
-    tile.live = std::int64_t{1} * tile.job.width * tile.job.height;
+    tile.live = tile.job.pixels();
     tile.sheets_after_end = 0;
     tile.sheets.assign(Sheet::sheets_of(tile.job), nullptr);
     tile.ready = 0;

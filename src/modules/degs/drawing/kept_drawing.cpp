@@ -51,7 +51,7 @@ KeptDrawing::Tile& KeptDrawing::tile(TileNumber number) {
     if (place == nullptr) {
         place = std::make_unique<Tile>();
         place->job = job_.tiles[number];
-        place->live = std::int64_t{1} * place->job.width * place->job.height;
+        place->live = place->job.pixels();
         place->sheets.resize(DrawnSheet::sheets_of(place->job));
         if (!name_.empty()) {
             place->kept = DrawnTileReader(kept_.find(key(place->job)));
@@ -63,13 +63,15 @@ KeptDrawing::Tile& KeptDrawing::tile(TileNumber number) {
     return *place;
 }
 
-// The pixels of a kept tile behind its last sheet: all have ended, or nobody would ask for more.
+// The pixels of a kept tile behind its last sheet: all in the image have ended, or nobody would ask
+// for more.
 void KeptDrawing::end_canvas(Tile& tile) {
     tile.canvas = canvases_.open();
     std::vector<PixelValue> pixels(tile.job.width);
-    for (int row = 0; row < tile.job.height; ++row) {
+    const PixelRange rows = tile.job.drawn_rows(), columns = tile.job.drawn_columns();
+    for (int row = rows.first; row <= rows.last; ++row) {
         tile.kept.read_pixels(std::size_t{1} * row * tile.job.width, pixels.size(), pixels.data());
-        for (int column = 0; column < tile.job.width; ++column) {
+        for (int column = columns.first; column <= columns.last; ++column) {
             if (!pixels[column].ended) {
                 throw std::logic_error("rows were asked for behind the kept ones of a tile that "
                                        "has live pixels");

@@ -23,6 +23,7 @@ void TileCanvases::draw(int canvas, const JobTile& tile, std::uint32_t splat,
     wanted.x_begin = tile.x;
     wanted.x_end = tile.x + tile.width;
     wanted.tile_y = tile.y;
+    wanted.drawn = tile.drawn_columns();
     wanted.step = step;
     wanted.tests = tests_;
     for (int first = range.first; first <= range.last; first += kMostDrawnRows * step) {

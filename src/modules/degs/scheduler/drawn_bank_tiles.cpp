@@ -79,13 +79,12 @@ void DrawnBank::enter_tile(BankStream& stream, TileNumber number) {
     tile.context = context_in_turn(stream.entering, contexts_, first_context);
     tile.cursor = 0;
     tile.lanes.set_dates(now_);
-    const int width = job_.tiles[number].width;
+    const PixelRange drawn = job_.tiles[number].drawn_columns();
     Domain* domain = tile.domains;
     for (const Segmenter::Domain& place : segmenter_.domains()) {
         domain->ended = 0;
         domain->live = kAllPixels;
-        end_pixels(*domain++,
-                   ~bits_between(0, std::clamp(width - place.column, 0, segment_length_)));
+        end_pixels(*domain++, ~bits_of(drawn.relative_to(place.column), segment_length_));
     }
     stream.entered = true;
     list_started();

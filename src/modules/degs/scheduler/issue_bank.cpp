@@ -219,18 +219,18 @@ std::uint32_t IssueBank::end_pixels(SegmentQueue::Tile& tile, int domain,
 // Called when the first item of a tile is taken. Pixels outside of the image count as ended.
 void IssueBank::enter_tile(BankStream& stream, TileNumber number) {
     queue_.hold(stream.oldest, stream.entering, stream.index);
-    const int width = job_.tiles[number].width;
+    const PixelRange drawn = job_.tiles[number].drawn_columns();
     SegmentQueue::Tile& tile = tile_at(stream, stream.entering);
     const int first_context = config_.first_context + static_cast<int>(stream.index) * contexts_;
     tile.name(number, context_in_turn(stream.entering, contexts_, first_context));
     int domain = 0;
     for (const Segmenter::Domain& place : segmenter_.domains()) {
-        const int inside = std::clamp(width - place.column, 0, config_.segment_length);
-        end_pixels(tile, domain++, ~bits_between(0, inside));
+        end_pixels(tile, domain++,
+                   ~bits_of(drawn.relative_to(place.column), config_.segment_length));
     }
     stream.entered = true;
     list_started();
-    log_tile(tile_event_, number, {tile.context(), width});
+    log_tile(tile_event_, number, {tile.context(), drawn.last + 1});
 }
 
 template <bool single>

@@ -119,10 +119,10 @@ inline __attribute__((always_inline)) bool SpanStage::solve(const RowItem& row, 
     }
     const JobTile& tile = job_.tiles[row.tile];
     const int y = tile.y + row.row, x_end = tile.x + tile.width;
-    const auto& span = *new (&result.span) std::optional<RowSpan>(
+    auto& span = *new (&result.span) std::optional<RowSpan>(
         config_.parsing ? job_.path->solve_row(row.splat, y, tile.x, x_end, tile.y)
                         : row_of_box(*job_.path, row.splat, y, tile.x, x_end, tile.y));
-    if (!span) {
+    if (!span || !cut(*span, tile.drawn_columns())) {
         stats_.empty_rows++;
         return false;
     }

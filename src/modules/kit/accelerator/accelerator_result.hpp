@@ -79,8 +79,9 @@ struct FrameDates {
 /// A tile that lists at least one splat, and what the array did for it.
 struct TileRecord {
     std::uint32_t frame = 0;
-    int x = 0, y = 0, width = 0, height = 0; ///< px, of the image
-    std::uint64_t splats = 0;                ///< length of its list
+    int x = 0, y = 0;          ///< its corner in the raster, px
+    int width = 0, height = 0; ///< px inside the image
+    std::uint64_t splats = 0;  ///< length of its list
     TileActivity activity;
 };
 

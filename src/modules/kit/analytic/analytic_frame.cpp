@@ -138,12 +138,12 @@ std::vector<ScheduledTile> all_tiles(const std::vector<Listed>& tiles,
 
 /// Pixels of the tiles that list no splat.
 double background_pixels(const FrameWorkload& frame) {
+    const TileGrid grid = frame.grid();
     double pixels = 0;
     for (int tile = 0; tile < frame.tiles(); ++tile) {
         if (frame.tile_begin[tile] == frame.tile_begin[tile + 1]) {
-            const int size = frame.tile_size;
-            pixels += 1.0 * std::min(size, frame.camera.width - tile % frame.tiles_x * size) *
-                      std::min(size, frame.camera.height - tile / frame.tiles_x * size);
+            const PixelBox drawn = grid.drawn_of(tile);
+            pixels += 1.0 * drawn.width() * drawn.height();
         }
     }
     return pixels;

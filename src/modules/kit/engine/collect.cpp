@@ -26,7 +26,7 @@ void add_activity(AcceleratorResult& result, const char* block, double operation
 void add_pixel_activity(AcceleratorResult& result, const RenderJob& job, double pixel_bytes) {
     std::uint64_t pixels = 0;
     for (const JobTile& tile : job.tiles) {
-        pixels += std::uint64_t{1} * tile.width * tile.height;
+        pixels += tile.pixels();
     }
     const std::uint64_t tasks = result.slots.executed() / result.slots_per_fragment;
     const std::uint64_t accesses = tasks + result.fragments() + pixels;

@@ -17,8 +17,7 @@ bool ListChanges::keeps(std::uint32_t frame) const {
 }
 
 std::size_t ListChanges::grid_index(const JobTile& tile) const {
-    const FrameWorkload& frame = job_.frame_of(tile);
-    return tile.y / frame.tile_size * frame.tiles_x + tile.x / frame.tile_size;
+    return job_.frame_of(tile).grid().tile_of_pixel(tile.x, tile.y);
 }
 
 void ListChanges::mark(std::uint32_t frame, std::vector<bool>& written) {

@@ -39,14 +39,20 @@ void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
     places.emplace_back(frame, record_order);
     images.emplace_back(frame.camera.width, frame.camera.height);
     const std::vector<int> listed = listed_tiles(frame, tile_order);
+    const TileGrid grid = frame.grid();
     std::uint64_t before = 0;
     for (const int t : listed) {
+        const PixelBox whole = grid.pixels_of(t), drawn = grid.drawn_of(t);
         JobTile tile;
         tile.frame = f;
-        tile.x = (t % frame.tiles_x) * tile_size;
-        tile.y = (t / frame.tiles_x) * tile_size;
-        tile.width = std::min(tile_size, frame.camera.width - tile.x);
-        tile.height = std::min(tile_size, frame.camera.height - tile.y);
+        tile.x = whole.x0;
+        tile.y = whole.y0;
+        tile.width = whole.width();
+        tile.height = whole.height();
+        tile.cut_left = drawn.x0 - whole.x0;
+        tile.cut_top = drawn.y0 - whole.y0;
+        tile.cut_right = whole.x1 - drawn.x1;
+        tile.cut_bottom = whole.y1 - drawn.y1;
         tile.first = frame.tile_begin[t];
         tile.count = frame.tile_begin[t + 1] - tile.first;
         tile.before = before;

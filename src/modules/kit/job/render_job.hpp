@@ -24,17 +24,25 @@ namespace degs {
 /// A tile that lists at least one splat. Empty tiles never enter the pipeline.
 struct JobTile {
     std::uint32_t frame = 0;
-    int x = 0, y = 0;          ///< top left pixel in the image
-    int width = 0, height = 0; ///< pixels inside the image
-    std::uint64_t first = 0;   ///< into the frame's tile_splats
+    int x = 0, y = 0;          ///< top left pixel in the raster, see Camera
+    int width = 0, height = 0; ///< pixels inside the raster
+    /// How many of its first and last columns and rows are not in the image.
+    int cut_left = 0, cut_top = 0, cut_right = 0, cut_bottom = 0;
+    std::uint64_t first = 0; ///< into the frame's tile_splats
     std::uint64_t count = 0;
     std::uint64_t before = 0; ///< entries of the frame's tiles that are taken earlier
     TileNumber turn = 0;      ///< tiles of its frame before it; TileList counts them
     bool last_of_frame = false;
     bool passed = false; ///< sorted and fetched; its list is not asked for again
 
-    PixelRange columns() const { return {x, x + width - 1}; } ///< of the image
-    PixelRange rows() const { return {y, y + height - 1}; }   ///< of the image
+    // The part inside the image, which is drawn; the list and the rows are those of the whole tile.
+    PixelRange columns() const { return drawn_columns().relative_to(-x); } ///< of the raster
+    PixelRange rows() const { return drawn_rows().relative_to(-y); }       ///< of the raster
+    PixelRange drawn_columns() const { return {cut_left, width - 1 - cut_right}; } ///< of the tile
+    PixelRange drawn_rows() const { return {cut_top, height - 1 - cut_bottom}; }   ///< of the tile
+    std::int64_t pixels() const {
+        return std::int64_t{1} * drawn_columns().size() * drawn_rows().size();
+    }
 };
 
 /// Tiles that keep their place when others join or the oldest retire, so that blocks may hold on to

@@ -78,18 +78,19 @@ Completion BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int be
         return done;
     }
     const FrameWorkload& work = *job_.frames[frame];
-    const int left = begin * work.tile_size;
-    const int width = std::min(end * work.tile_size, work.camera.width) - left;
-    const int top = tile_row * work.tile_size;
-    const int bottom = std::min(top + work.tile_size, work.camera.height);
+    const TileGrid grid = work.grid();
+    const int first = tile_row * work.tiles_x;
+    const int left = grid.drawn_of(first + begin).x0;
+    const int width = grid.drawn_of(first + end - 1).x1 + 1 - left;
+    const int top = grid.drawn_of(first).y0;
+    const int bottom = grid.drawn_of(first).y1 + 1;
     // Rows as wide as the image follow each other.
     const int rows = width == work.camera.width ? bottom - top : 1;
-    const std::uint64_t pitch = work.camera.width;
     const std::uint64_t pixel_bytes = job_.pixel_bytes(frame, traffic_);
     const std::vector<unsigned char> zeros((rows * width) * pixel_bytes, 0);
     const std::uint64_t base = job_.map(frame, traffic_).frame_buffer;
     for (int y = top; y < bottom; y += rows) {
-        const std::uint64_t pixel = y * pitch + left;
+        const std::uint64_t pixel = work.camera.place_of(left, y);
         self_.advance_to(next_write_);
         next_write_ = self_.local() + cycles_per_write_;
         done = latest(done, frame_buffer.write(self_, base + pixel * pixel_bytes, zeros));

@@ -200,26 +200,30 @@ Completion PixelBuffer::write_rows(TileNumber number) {
     const JobTile& tile = job_.tiles[number];
     const MemoryMap map = job_.map(tile.frame, traffic_);
     const std::uint64_t pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
-    const std::uint64_t frame_width = job_.frame_of(tile).camera.width;
+    const Camera& camera = job_.frame_of(tile).camera;
+    const PixelRange rows = tile.drawn_rows(), columns = tile.columns();
     const int per_cycle = pixels_per_cycle();
     const Cycle start = self_.local();
     Completion done = start;
     int read = 0; // pixels
     int row = 0;
-    for (int y = share_.first_row; y < tile.height; y += share_.row_stride, ++row) {
+    for (int y = share_.first_row; y <= rows.last; y += share_.row_stride) {
+        if (y < rows.first) {
+            continue;
+        }
         if (!instant_) {
             self_.advance_to(start + std::max(read / per_cycle, row / rows_per_cycle));
         }
-        const std::uint64_t image_row = tile.y + y;
         const std::uint64_t address =
-            map.frame_buffer + (image_row * frame_width + tile.x) * pixel_bytes;
+            map.frame_buffer + camera.place_of(columns.first, tile.y + y) * pixel_bytes;
         const std::vector<unsigned char>& pixels = read_out(number, y);
         if (instant_) {
             frame_buffer.poke(address, pixels);
         } else {
             done = latest(done, frame_buffer.write(self_, address, pixels));
         }
-        read += tile.width;
+        read += columns.size();
+        ++row;
     }
     if (instant_) {
         return done;
@@ -233,16 +237,18 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
     const JobTile& tile = job_.tiles[number];
     Image& image = job_.images[tile.frame];
     const int pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
-    pixels_.resize(tile.width);
-    bytes_.resize(pixels_.size() * pixel_bytes);
+    const PixelRange columns = tile.drawn_columns();
+    pixels_.resize(columns.last + 1);
+    bytes_.resize(std::size_t{1} * columns.size() * pixel_bytes);
     if (drawn_ != nullptr) {
-        drawn_->read_row(number, y, tile.width, pixels_.data());
+        drawn_->read_row(number, y, columns.last + 1, pixels_.data());
     } else {
-        job_.path->read_row(context_of(number), y, tile.width, pixels_.data());
+        job_.path->read_row(context_of(number), y, columns.last + 1, pixels_.data());
     }
     unsigned char* out = bytes_.data();
-    std::size_t i = image.at(tile.x, tile.y + y);
-    for (const PixelValue& pixel : pixels_) {
+    std::size_t i = job_.frame_of(tile).camera.place_of(tile.columns().first, tile.y + y);
+    for (int column = columns.first; column <= columns.last; ++column) {
+        const PixelValue& pixel = pixels_[column];
         image.put(i, pixel.rgb, pixel.transmittance, pixel.updates);
         encode(pixel, pixel_bytes, out);
         out += pixel_bytes;
