@@ -81,6 +81,8 @@ static void set_view(const view *from) {
         camera.position[i] = from->position[i];
     }
     degs_set_camera(&device, &camera);
+    const degs_window window = {from->shift_x, from->shift_y, from->origin_x, from->origin_y};
+    degs_set_window(&device, &window);
 }
 
 int main(void) {

@@ -15,8 +15,8 @@
 
 /* Words of 32 bits and doubles in aligned places, so that host and firmware agree on it. */
 typedef struct view {
-    double focal_x, focal_y, axes[9], position[3];
-    uint32_t width, height;
+    double focal_x, focal_y, axes[9], position[3], shift_x, shift_y;
+    uint32_t width, height, origin_x, origin_y;
 } view;
 
 typedef struct boot_table {

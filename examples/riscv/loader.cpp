@@ -20,6 +20,10 @@ view to_view(const degs::MemoryScene& scene, std::size_t camera) {
     to.focal_y = from.focal_y;
     std::memcpy(to.axes, from.axes, sizeof to.axes);
     std::memcpy(to.position, from.position, sizeof to.position);
+    to.shift_x = from.shift_x;
+    to.shift_y = from.shift_y;
+    to.origin_x = static_cast<std::uint32_t>(from.origin_x);
+    to.origin_y = static_cast<std::uint32_t>(from.origin_y);
     to.width = static_cast<std::uint32_t>(from.width);
     to.height = static_cast<std::uint32_t>(from.height);
     return to;

@@ -18,6 +18,10 @@ view view_of(const Camera& camera) {
     view to{};
     to.width = static_cast<std::uint32_t>(camera.width);
     to.height = static_cast<std::uint32_t>(camera.height);
+    to.origin_x = static_cast<std::uint32_t>(camera.origin.x);
+    to.origin_y = static_cast<std::uint32_t>(camera.origin.y);
+    to.shift_x = camera.shift.x;
+    to.shift_y = camera.shift.y;
     to.focal_x = camera.fx;
     to.focal_y = camera.fy;
     for (int axis = 0; axis < 3; ++axis) {
