@@ -108,17 +108,17 @@ FrameEstimate::FrameEstimate(const AcceleratorConfig& config, const FrameWorkloa
 void FrameEstimate::begin(const AcceleratorResult& head) {
     totals_ = GroupTotals(amounts_of(head));
     raw_ = head;
-    edges_ = head.slots;
+    edges_ = {head.slots, head.slots.total()};
 }
 
-void FrameEstimate::add_block(std::size_t block, std::size_t group, const SlotAccount& slots) {
-    std::vector<double> measured;
-    measured.reserve(kSlotClasses.size() + 1);
+void FrameEstimate::add_block(std::size_t block, std::size_t group, const WindowPart& measured) {
+    std::vector<double> values;
+    values.reserve(kSlotClasses.size() + 1);
     for (const SlotClass& slot : kSlotClasses) {
-        measured.push_back(rate_of(slots[slot.slot], 1));
+        values.push_back(rate_of(measured.slots[slot.slot], 1));
     }
-    measured.push_back(rate_of(slots.total(), 1));
-    regression_.add(block, group, std::move(measured));
+    values.push_back(rate_of(measured.total, 1));
+    regression_.add(block, group, std::move(values));
 }
 
 void FrameEstimate::add_group(const AcceleratorResult& earlier, const AcceleratorResult& after,
@@ -128,7 +128,7 @@ void FrameEstimate::add_group(const AcceleratorResult& earlier, const Accelerato
 }
 
 void FrameEstimate::end(const AcceleratorResult& earlier, const AcceleratorResult& after,
-                        const SlotAccount& edges, const TileWork& warm_up) {
+                        const WindowPart& edges, const TileWork& warm_up) {
     totals_.add_known(difference(after, earlier));
     rest_ = less(rest_, warm_up); // counted among what is known
     raw_ = after;
@@ -138,25 +138,30 @@ void FrameEstimate::end(const AcceleratorResult& earlier, const AcceleratorResul
 FrameEstimate::Slots FrameEstimate::edge_slots() const {
     Slots slots{};
     for (std::size_t i = 0; i < kTotal; ++i) {
-        slots[i] = rate_of(edges_[kSlotClasses[i].slot], 1);
+        slots[i] = rate_of(edges_.slots[kSlotClasses[i].slot], 1);
     }
-    slots[kTotal] = rate_of(edges_.total(), 1);
+    slots[kTotal] = rate_of(edges_.total, 1);
     return slots;
 }
 
-// The classes are estimated one by one, so they are scaled to the total.
+// What the PEs execute does not depend on the order of the tiles, so it stays as it is: the idle
+// classes share what is left of the total.
 FrameEstimate::Slots FrameEstimate::slots_without(std::size_t group) const {
     Slots slots = edge_slots();
-    Slots inner{};
-    double sum = 0;
+    double executed = 0, idle = 0;
     for (std::size_t i = 0; i <= kTotal; ++i) {
-        const double total = group < totals_.groups() ? regression_.total_without(i, group)
+        const double inner = group < totals_.groups() ? regression_.total_without(i, group)
                                                       : regression_.total(i).value;
-        inner[i] = std::max(0.0, total);
-        sum += i < kTotal ? inner[i] : 0;
+        slots[i] += std::max(0.0, inner);
+        if (i < kTotal) {
+            (is_executed(kSlotClasses[i].slot) ? executed : idle) += slots[i];
+        }
     }
-    for (std::size_t i = 0; i <= kTotal; ++i) {
-        slots[i] += i < kTotal && sum > 0 ? inner[i] * inner[kTotal] / sum : inner[i];
+    slots[kTotal] = std::max(slots[kTotal], executed);
+    for (std::size_t i = 0; i < kTotal; ++i) {
+        if (!is_executed(kSlotClasses[i].slot) && idle > 0) {
+            slots[i] *= (slots[kTotal] - executed) / idle;
+        }
     }
     return slots;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,21 @@
 
 namespace degs::sim {
 
-/// PE-cycles are recorded tile by tile, so their totals, and the time that is their sum, come from
-/// a regression over blocks. Other counters exist for a whole group only, and are scaled. Whatever
-/// follows from both has the interval of the jackknife that leaves out one group at a time.
+/// What some tiles have of the blending window.
+struct WindowPart {
+    SlotAccount slots;       ///< PE-cycles of the tiles
+    std::uint64_t total = 0; ///< PE-cycles of the window that go by for them; over all tiles, all
+    WindowPart& operator+=(const WindowPart& other) {
+        slots += other.slots;
+        total += other.total;
+        return *this;
+    }
+};
+
+/// PE-cycles and dates of tasks are recorded tile by tile, so the time and the totals of the
+/// classes come from a regression over blocks. Other counters exist for a whole group only, and are
+/// scaled. Whatever follows from both has the interval of the jackknife that leaves out one group
+/// at a time.
 class FrameEstimate {
 public:
     /// `blocks`: the work of the blocks that the sample is drawn from.
@@ -25,14 +38,14 @@ public:
 
     /// After preprocessing and the first tiles of the frame.
     void begin(const AcceleratorResult& head);
-    void add_block(std::size_t block, std::size_t group, const SlotAccount& slots);
+    void add_block(std::size_t block, std::size_t group, const WindowPart& measured);
     /// Counters before and after a group, and the work of all the tiles that it simulated.
     void add_group(const AcceleratorResult& earlier, const AcceleratorResult& after,
                    const TileWork& simulated);
-    /// The last tiles: counters before and after them, the slots of the tiles at both ends of the
-    /// frame, and the work of the tiles that came before the last ones to warm up.
+    /// The last tiles: counters before and after them, what the tiles at both ends of the frame
+    /// have of the window, and the work of the tiles that came before the last ones to warm up.
     void end(const AcceleratorResult& earlier, const AcceleratorResult& after,
-             const SlotAccount& edges, const TileWork& warm_up);
+             const WindowPart& edges, const TileWork& warm_up);
 
     /// Half of the 95 % interval over the value, as far as the sample has come.
     double relative_half_width(const std::string& path) const;
@@ -63,7 +76,7 @@ private:
     GroupTotals totals_;
     TileWork rest_ = kNoWork;
     AcceleratorResult raw_; ///< the latest counters of the sample
-    SlotAccount edges_;
+    WindowPart edges_;
 };
 
 } // namespace degs::sim

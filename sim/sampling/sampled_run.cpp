@@ -59,6 +59,10 @@ public:
     void settle() {
         (job_.joined ? job_.joined : joined_)->notify(sc_core::SC_ZERO_TIME);
         sc_core::sc_start();
+        for (std::size_t number = over_.size(); number < job_.tiles.size(); ++number) {
+            window_.include(activity_of(number).window);
+            over_.push_back(window_.last + 1);
+        }
     }
     /// The tiles that have been added are the last.
     void close() {
@@ -66,10 +70,17 @@ public:
         settle();
         job_.recorder->close();
     }
-    /// PE-cycles of a tile of the job, so far.
-    SlotAccount slots_of(std::size_t number) const {
-        const std::vector<TileActivity>& tiles = job_.recorder->tiles();
-        return number < tiles.size() ? tiles[number].slots : SlotAccount();
+    /// What `count` tiles of the job from `first` on have of the blending window, so far. Where
+    /// tiles are in work one after the other, their share is the time from the last task of the
+    /// tiles before them to the last task of their own; else it is their PE-cycles.
+    WindowPart part_of(std::size_t first, std::size_t count, bool in_turn) const {
+        WindowPart part;
+        for (std::size_t number = first; number < first + count; ++number) {
+            part.slots += activity_of(number).slots;
+        }
+        part.total =
+            in_turn ? config_.pes() * (end_of(first + count) - end_of(first)) : part.slots.total();
+        return part;
     }
     AcceleratorResult result(bool array_only) const {
         AcceleratorResult result;
@@ -98,10 +109,21 @@ public:
     }
 
 private:
+    /// When the last task of the first `count` tiles of the job is over.
+    Cycle end_of(std::size_t count) const {
+        return std::max(count == 0 ? 0 : over_[count - 1], window_.first);
+    }
+    TileActivity activity_of(std::size_t number) const {
+        const std::vector<TileActivity>& tiles = job_.recorder->tiles();
+        return number < tiles.size() ? tiles[number] : TileActivity();
+    }
+
     const AcceleratorConfig& config_;
     const Timebase& time_;
     RenderJob job_;
     std::vector<JobTile> all_;
+    ActiveWindow window_;     ///< of the tiles that have been simulated
+    std::vector<Cycle> over_; ///< its end with the first n + 1 of them
     std::unique_ptr<RenderEngine> engine_;
     std::unique_ptr<sc_core::sc_event> joined_; ///< of a closed job: processes still wait for it
 };
@@ -110,21 +132,18 @@ private:
 class Sampler {
 public:
     Sampler(OpenRun& run, const std::vector<TileWork>& work, SampleDesign design,
-            FrameEstimate& estimate, bool array_only)
+            FrameEstimate& estimate, bool array_only, bool in_turn)
         : run_(run), work_(work), design_(std::move(design)), estimate_(estimate),
-          array_only_(array_only), warm_up_(warm_up_tiles(run.config().tile_contexts())) {}
+          array_only_(array_only), in_turn_(in_turn), contexts_(run.config().tile_contexts()),
+          warm_up_(warm_up_tiles(run.config().tile_contexts())) {}
 
     void begin() {
-        std::vector<std::size_t> numbers;
         for (std::size_t t = 0; t < design_.edge; ++t) {
-            numbers.push_back(run_.add(t));
+            run_.add(t);
         }
         run_.settle();
         before_ = run_.result(array_only_);
         estimate_.begin(before_);
-        for (const std::size_t number : numbers) {
-            edge_.push_back(number);
-        }
     }
 
     bool more() const { return next_ < design_.groups.size(); }
@@ -143,7 +162,7 @@ public:
                 run_.add(t);
                 simulated += work_[t];
             }
-            least = 1; // the pipeline is full
+            least = contexts_; // the pipeline is full
             over = block.first + block.count;
             blocks.emplace_back(b, run_.simulated());
             for (std::size_t t = block.first; t < block.first + block.count; ++t) {
@@ -155,11 +174,8 @@ public:
         run_.settle();
         AcceleratorResult now = run_.result(array_only_);
         for (const auto& [block, number] : blocks) {
-            SlotAccount slots;
-            for (std::size_t i = 0; i < design_.blocks[block].count; ++i) {
-                slots += run_.slots_of(number + i);
-            }
-            estimate_.add_block(block, group, slots);
+            estimate_.add_block(block, group,
+                                run_.part_of(number, design_.blocks[block].count, in_turn_));
         }
         estimate_.add_group(before_, now, simulated);
         before_ = std::move(now);
@@ -169,22 +185,17 @@ public:
         const std::size_t tiles = run_.all().size();
         const std::size_t first = tiles - std::min(design_.edge + warm_up_, tiles);
         for (std::size_t t = first; t < tiles; ++t) {
-            const std::size_t number = run_.add(t);
-            if (t >= tiles - design_.edge) {
-                edge_.push_back(number);
-            }
+            run_.add(t);
         }
         run_.close();
         AcceleratorResult now = run_.result(array_only_);
-        SlotAccount slots;
-        for (const std::size_t number : edge_) {
-            slots += run_.slots_of(number);
-        }
+        WindowPart edges = run_.part_of(0, design_.edge, in_turn_);
+        edges += run_.part_of(run_.simulated() - design_.edge, design_.edge, in_turn_);
         TileWork warm = kNoWork;
         for (std::size_t t = first; t < tiles - design_.edge; ++t) {
             warm += work_[t];
         }
-        estimate_.end(before_, now, slots, warm);
+        estimate_.end(before_, now, edges, warm);
         return now;
     }
 
@@ -215,9 +226,9 @@ private:
     const std::vector<TileWork>& work_;
     SampleDesign design_;
     FrameEstimate& estimate_;
-    bool array_only_;
+    bool array_only_, in_turn_;
+    std::size_t contexts_; ///< a tile finds those before it in all others
     std::size_t warm_up_, next_ = 0, measured_ = 0;
-    std::vector<std::size_t> edge_; ///< numbers of the tiles at the ends of the frame
     AcceleratorResult before_;
 };
 
@@ -311,7 +322,8 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     const Timebase time{ClockDomain(config.clock_ghz), fidelity, nullptr, &activations};
     OpenRun run(config, frames, time, options);
     FrameEstimate estimate(config, *frames.front(), work_of_blocks(work, design));
-    Sampler sampler(run, work, std::move(design), estimate, options.array_only);
+    Sampler sampler(run, work, std::move(design), estimate, options.array_only,
+                    model != nullptr && model->engines() == 1);
     const double elaborate_s = elaborate.seconds();
 
     const auto sim_start = std::chrono::steady_clock::now();

@@ -28,7 +28,7 @@ SampleSizes sizes_for(int contexts, std::size_t tiles) {
     sizes.block = tiles >= 400 ? 4 : tiles >= 200 ? 2 : 1;
     // The states in which a pipeline fills and empties must be few beside the others; but the first
     // look should not come later than a frame needs.
-    sizes.group = std::max(4 * sizes.block, std::min(10 * sizes.block, tiles / 75));
+    sizes.group = std::max(2 * sizes.block, std::min(10 * sizes.block, tiles / 75));
     return sizes;
 }
 
@@ -41,7 +41,7 @@ bool can_sample(const SamplingRequest& request, int contexts, std::size_t tiles)
         return false;
     }
     const std::size_t warm = warm_up_tiles(contexts);
-    const std::size_t group = sizes.group + sizes.group / sizes.block + warm;
+    const std::size_t group = sizes.group + contexts * (sizes.group / sizes.block) + warm;
     return request.share > 0 ||
            ratio_of(2 * sizes.edge + warm + kLeastGroups * group, tiles) <= kFirstLook;
 }

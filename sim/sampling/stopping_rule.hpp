@@ -9,8 +9,9 @@
 
 namespace degs::sim {
 
-/// Groups before the first look at the interval: fewer say too little about their own scatter.
-inline constexpr std::size_t kLeastGroups = 5;
+/// Groups before the first look at the interval: fewer say too little about their own scatter, and
+/// a sample that looks narrow by chance ends too soon.
+inline constexpr std::size_t kLeastGroups = 8;
 /// Above this share of the tiles an exact run takes little longer, and is exact.
 inline constexpr double kMostShare = 0.5;
 

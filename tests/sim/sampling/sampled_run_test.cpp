@@ -75,6 +75,14 @@ TEST_P(SmallRunSampled, AgreesWithTheExactRun) {
     EXPECT_EQ(sum, number(sample, "slots.pes") * number(sample, "timing.blending_cycles"));
 }
 
+// A sample that takes in every run of tiles has no scatter: what is left is what their order costs.
+TEST_P(SmallRunSampled, CostsNothingInAnotherOrder) {
+    const double exact = number(sampled_report_of(GetParam(), {}), "timing.cycles");
+    const json all = sampled_report_of(GetParam(), {"--fidelity", "sampled:99.9%"});
+    EXPECT_EQ(all["sampling"]["tiles_measured"], all["sampling"]["tiles"]);
+    EXPECT_NEAR(number(all, "timing.cycles"), exact, 3e-4 * exact);
+}
+
 INSTANTIATE_TEST_SUITE_P(Designs, SmallRunSampled,
                          ::testing::Values("degs-64", "gscore-64", "degs-16"));
 

@@ -40,6 +40,11 @@ inline constexpr std::array<SlotClass, 9> kSlotClasses{{
     {Slot::Drain, "drain", "No task: this part of the array had finished, others had not."},
 }};
 
+/// True if the PE had a task.
+constexpr bool is_executed(Slot slot) {
+    return slot == Slot::Useful || slot == Slot::Boundary || slot == Slot::Terminated;
+}
+
 /// PE-cycles by class. Every PE-cycle of the blending window falls in exactly one.
 class SlotAccount {
 public:
