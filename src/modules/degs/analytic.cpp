@@ -48,7 +48,7 @@ public:
     }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override {
-        return degs::sort_cycles(config_.sorting, entries, front().sort_capacity);
+        return degs::sort_cycles(config_.sorting, entries, front());
     }
     int engines() const override { return config_.all_streams(); }
     double latency() const override;
