@@ -176,7 +176,9 @@ TileCycles Clock::end(const CoarseTile& tile) {
                           passes / config.colour.keys_per_cycle);
     busy[Analytic::kBlending] = cycles.slots / config.array.pes();
     busy[Analytic::kMemory] = model_.memory().cycles(cycles.bytes);
-    cycles.time = *std::max_element(busy.begin(), busy.end());
+    // The array waits until the only context has been read out.
+    cycles.time = *std::max_element(busy.begin(), busy.end()) + config.array.writeback_cycles +
+                  tile.pixels() / config.image_buffer.readout_pixels;
     for (const auto unit : {Analytic::kProjection, Analytic::kColour, Analytic::kBlending}) {
         busy[unit] /= config.clusters;
     }

@@ -28,10 +28,10 @@ public:
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double walked) const override {
         if (config_.clusters == 1) {
-            return degs::sort_cycles(config_.sorting, entries, walked, front().sort_capacity);
+            return degs::sort_cycles(config_.sorting, entries, walked, front());
         }
         SortCycles sorted = // granted as a whole
-            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity);
+            degs::sort_cycles(config_.sorting, entries, entries, front());
         sorted.first = sorted.all;
         return sorted;
     }

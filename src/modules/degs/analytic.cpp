@@ -6,26 +6,14 @@
 #include <vector>
 
 #include "modules/degs/analytic_bank.hpp"
+#include "modules/degs/analytic_slicing.hpp"
 #include "modules/degs/config.hpp"
 #include "modules/kit/analytic/front_end_load.hpp"
+#include "modules/kit/analytic/memory_dates.hpp"
+#include "modules/kit/analytic/ring_dates.hpp"
 
 namespace degs {
 namespace {
-
-/// Dates at which the cells of a ring are free again, oldest first.
-class RingDates {
-public:
-    explicit RingDates(int cells = 1) : dates_(cells, 0) {}
-    double oldest() const { return dates_[next_]; }
-    void replace_oldest(double date) {
-        dates_[next_] = date;
-        next_ = next_ + 1 == dates_.size() ? 0 : next_ + 1;
-    }
-
-private:
-    std::vector<double> dates_;
-    std::size_t next_ = 0;
-};
 
 class DegsAnalytic : public FrontEndModel {
 public:
@@ -48,7 +36,7 @@ public:
     }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override {
-        return degs::sort_cycles(config_.sorting, entries, front().sort_capacity);
+        return degs::sort_cycles(config_.sorting, entries, front());
     }
     int engines() const override { return config_.all_streams(); }
     double latency() const override;
@@ -78,17 +66,22 @@ public:
 private:
     struct Bank {
         AnalyticBank queue;
+        RingDates crossbar;      ///< places for Span Vectors
         double cut = 0;          ///< when the next segment may be cut
         std::uint64_t splat = 0; ///< the last one with a segment in it, from 1
     };
+    /// Rows that wait, and the Span Units that take them in order.
     struct Lane {
-        RingDates rows;
-        double free = 0; ///< when its Span Unit has solved the rows so far
+        RingDates rows, units;
+        double taken = 0; ///< the row before
     };
     bool has_live_segment(const CoarseTile& tile, const CoarseSpan& span) const;
     double choose_rows(const CoarseTile& tile);
-    void supply();
-    double solve_row(int row, double sliced);
+    void begin_lanes(double rows_per_drawn);
+    void post(double date, double bytes);
+    void post_lists(const CoarseTile& tile);
+    double supply();
+    double solve_row(int row);
     void segment(const CoarseTile& tile, const CoarseSpan& span, double solved);
     double tasks_of(const CoarseTile& tile, const CoarseSpan& part) const;
     double with_other_streams(double alone, double shared) const;
@@ -102,14 +95,14 @@ private:
     std::size_t tiles_ = 0;
     std::vector<CoarseSpan> sent_; ///< rows of a splat; empty ones, too
     std::size_t segments_per_row_;
-    double units_;          ///< Slicing Units of a tile
-    RingDates supply_;      ///< places for chunks of splats before the Slicing Units
-    double asked_ = 0;      ///< when the latest chunk was asked for
-    double arrived_ = 0;    ///< and when it is there
-    int left_of_chunk_ = 0; ///< splats
-    double sliced_ = 0;     ///< when the Slicing Units have sent the rows so far
-    double last_end_ = 0;   ///< of the tile before
-    double start_ = 0;      ///< when a context is free
+    AnalyticSlicing slicing_;
+    MemoryDates memory_;
+    std::vector<FetcherDates> fetchers_;  ///< tiles take them in turn
+    double arrived_ = 0;                  ///< when the latest chunk of splats is there
+    int left_of_chunk_ = 0;               ///< splats
+    double sliced_ = 0;                   ///< when the Slicing Units have sent the rows so far
+    double last_time_ = 0, last_end_ = 0; ///< of the tile before
+    double start_ = 0;                    ///< when a context is free
     double tasks_ = 0, rows_ = 0, segments_ = 0, slices_ = 0;
     double issues_ = 0;   ///< cycles of banks with an issue
     double features_ = 0; ///< splats with a segment in a bank, for every bank
@@ -149,29 +142,43 @@ double DegsAnalytic::latency() const {
 }
 
 DegsClock::DegsClock(const DegsAnalytic& model, const FrameWorkload& frame)
-    : model_(model), config_(model.config()), lanes_(config_.span.count),
-      finished_(config_.contexts(), 0),
+    : model_(model), config_(model.config()), finished_(config_.contexts(), 0),
       segments_per_row_((frame.tile_size + config_.scheduler.segment_length - 1) /
                         config_.scheduler.segment_length),
-      units_(config_.slicing.units_per_module()), supply_(std::max(1, config_.gaussian_chunks())),
-      asked_(-model.front().cycles_per_chunk()) {
+      slicing_(config_.slicing.units_per_module(), config_.slicing.splats_per_cycle,
+               frame.tile_size),
+      memory_(model.front().memory.bytes_per_cycle, model.front().memory.latency),
+      fetchers_(config_.granted() ? 1 : config_.sorting.count,
+                FetcherDates(config_.gaussian_chunks(), model.front().fetching.chunks_in_flight)) {
     banks_.assign(
         config_.scheduler.banks,
         {AnalyticBank(config_.queue_depth(),
                       Segmenter::domains_per_tile(frame.tile_size, config_.scheduler.segment_length,
                                                   config_.scheduler.banks),
-                      config_.scheduler.reuse_cycles, config_.scheduler.scan)});
-    const int rows = config_.span_buffer.bytes / config_.span_buffer.row_bytes / config_.span.count;
-    for (Lane& lane : lanes_) {
-        lane.rows = RingDates(std::max(rows, 1));
-    }
+                      config_.scheduler.reuse_cycles, config_.scheduler.scan),
+         RingDates(config_.crossbar_cells())});
 }
 
-void DegsClock::begin(const CoarseTile&) {
-    if (left_of_chunk_ != 0) { // the last one of a tile is not full
-        supply_.replace_oldest(sliced_);
-        left_of_chunk_ = 0;
+/// Span Units own every n-th row, or are a pool that takes the rows of one lane.
+void DegsClock::begin_lanes(double rows_per_drawn) {
+    if (!lanes_.empty()) {
+        return;
     }
+    const bool pool = config_.spans_cross();
+    const int lanes = pool ? 1 : config_.span.count;
+    // A pool has only as many as it takes for the rows that are drawn.
+    const long drawn = pool ? std::lround(rows_per_drawn) : 1;
+    const int rows = config_.span_buffer.bytes / config_.span_buffer.row_bytes / lanes;
+    const int units = config_.span.count * config_.span.rows_per_cycle / lanes;
+    lanes_.assign(lanes, {RingDates(rows / drawn), RingDates(units / drawn)});
+}
+
+void DegsClock::begin(const CoarseTile& tile) {
+    begin_lanes(tile.rows_per_drawn());
+    const int rows = config_.slicing.rows_per_cycle * config_.slicing.modules();
+    slicing_.begin_tile(sliced_, std::lround(rows / tile.rows_per_drawn()));
+    left_of_chunk_ = 0;
+    post_lists(tile);
     start_ = finished_[tiles_ % finished_.size()];
     for (Bank& bank : banks_) {
         bank.queue.begin_tile();
@@ -179,15 +186,19 @@ void DegsClock::begin(const CoarseTile&) {
     tasks_ = rows_ = segments_ = slices_ = issues_ = features_ = 0;
 }
 
-// The date at which the row has been solved.
-double DegsClock::solve_row(int row, double sliced) {
+// A unit takes the row when its bank has a place for the Span Vector; returns when it is solved.
+double DegsClock::solve_row(int row) {
     Lane& lane = lanes_[row % lanes_.size()];
-    const double entered = std::max(sliced, lane.rows.oldest());
-    lane.free = std::max(lane.free, entered) +
-                static_cast<double>(config_.span.cycles_per_row) / config_.span.rows_per_cycle;
-    lane.rows.replace_oldest(lane.free);
-    sliced_ = std::max(sliced_, entered); // a full lane stops all units
-    return lane.free;
+    double entered = slicing_.send(row);
+    if (entered < lane.rows.oldest()) { // a full lane stops all units
+        entered = lane.rows.oldest();
+        slicing_.stall(entered);
+    }
+    const double place = banks_[row % banks_.size()].crossbar.oldest();
+    lane.taken = std::max({lane.taken, entered, lane.units.oldest(), place});
+    lane.rows.replace_oldest(lane.taken);
+    lane.units.replace_oldest(lane.taken + config_.span.cycles_per_row);
+    return lane.taken + config_.span.cycles_per_row;
 }
 
 double DegsClock::queue_segment(Bank& bank, double arrived) {
@@ -211,6 +222,7 @@ double DegsClock::tasks_of(const CoarseTile& tile, const CoarseSpan& part) const
 void DegsClock::segment(const CoarseTile& tile, const CoarseSpan& span, double solved) {
     const int length = config_.scheduler.segment_length;
     Bank& bank = banks_[span.row % banks_.size()];
+    bank.crossbar.replace_oldest(std::max({solved, bank.cut, start_}));
     for (int s = span.first / length; s <= span.last / length; ++s) {
         double at = queue_segment(bank, solved);
         if (!tile.cell_is_live(span.row, s * length)) {
@@ -231,9 +243,6 @@ void DegsClock::segment(const CoarseTile& tile, const CoarseSpan& span, double s
         bank.splat = splats_;
         tasks_ += tasks;
         ++segments_;
-        // Span Vectors wait in their unit until the bank takes them.
-        Lane& lane = lanes_[span.row % lanes_.size()];
-        lane.free = std::max(lane.free, at - config_.crossbar_cells());
     }
 }
 
@@ -269,35 +278,50 @@ double DegsClock::choose_rows(const CoarseTile& tile) {
     return tile.rows_per_drawn() * static_cast<double>(sent_.size());
 }
 
-// A chunk is asked for when there is a place for it and fewer requests are in flight than may be.
-void DegsClock::supply() {
-    if (left_of_chunk_ == 0) {
-        const FrontEndLoad& front = model_.front();
-        asked_ = std::max(asked_ + front.cycles_per_chunk() / front.fetching.chunks_in_flight,
-                          supply_.oldest());
-        arrived_ = asked_ + front.cycles_per_chunk();
-        left_of_chunk_ = front.fetching.chunk;
+// The other streams do the same, each in its turn.
+void DegsClock::post(double date, double bytes) {
+    const int streams = config_.all_streams();
+    for (int stream = 0; stream < streams; ++stream) {
+        memory_.post(date + stream * last_time_ / streams, bytes);
     }
+}
+
+/// The lists of the tiles that follow are read, and written and read again in every pass through
+/// memory, while this one is rendered.
+void DegsClock::post_lists(const CoarseTile& tile) {
+    const FrontEndLoad& front = model_.front();
+    const auto sorted = model_.sort_cycles(tile.entries(), tile.entries());
+    const double bytes = tile.entries() * front.traffic.list_entry_bytes;
+    const double accesses = 1 + 2 * sorted.outside;
+    for (int access = 0; access < accesses; ++access) {
+        post(sliced_ + access * sorted.all / accesses, bytes);
+    }
+}
+
+// Returns when the next splat is there.
+double DegsClock::supply() {
+    if (left_of_chunk_ == 0) {
+        arrived_ = fetchers_[tiles_ % fetchers_.size()].next(memory_, model_.front().chunk_bytes());
+    }
+    return arrived_;
 }
 
 void DegsClock::splat(const CoarseTile& tile) {
     ++splats_;
-    const double rows = choose_rows(tile);
-    const double cycles = std::max(1.0, std::ceil(rows / config_.slicing.rows_per_cycle));
-    supply();
-    slices_ += cycles;
-    sliced_ = std::max(sliced_, arrived_) + cycles / units_;
-    if (--left_of_chunk_ == 0) {
-        supply_.replace_oldest(sliced_);
+    rows_ += choose_rows(tile);
+    const double taken = slicing_.begin(supply());
+    if (left_of_chunk_ == 0) {
+        fetchers_[tiles_ % fetchers_.size()].take(taken);
+        left_of_chunk_ = model_.front().fetching.chunk;
     }
-    rows_ += rows;
-    const double sliced = sliced_;
+    --left_of_chunk_;
     for (const CoarseSpan& span : sent_) {
-        const double solved = solve_row(span.row, sliced);
+        const double solved = solve_row(span.row);
         if (span.last >= span.first) {
             segment(tile, span, solved);
         }
     }
+    slices_ += slicing_.end();
 }
 
 /// The tile alone takes `alone` cycles, and keeps units that all streams share busy for `shared`.
@@ -317,10 +341,14 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
         done = std::max(done, bank.queue.done());
     }
     // The rest of the list keeps coming until the end of the last pixel is known.
-    const double known = std::min(done + config_.slicing.feedback_cycles, sliced_ + left / units_);
+    sliced_ = slicing_.done();
+    const double known = std::min(done + config_.slicing.feedback_cycles,
+                                  sliced_ + left / config_.slicing.units_per_module());
     sliced_ = std::max(sliced_, known);
+    const double over = done + config_.array.writeback_cycles;
     finished_[tiles_ % finished_.size()] =
-        done + config_.array.writeback_cycles + tile.pixels() / config_.pixel_buffer.readout_pixels;
+        over + tile.pixels() / config_.pixel_buffer.readout_pixels;
+    post(over, tile.pixels() * model_.front().traffic.pixel_bytes);
     ++tiles_;
     const double drawn = tile.rows_per_drawn();
     TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
@@ -345,6 +373,7 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
         std::max(sliced_ + behind - last_end_, cycles.time),
         config_.clusters * *std::max_element(cycles.busy.begin() + DegsAnalytic::kSpan,
                                              cycles.busy.begin() + DegsAnalytic::kMemory));
+    last_time_ = cycles.time;
     last_end_ += cycles.time;
     sliced_ = last_end_ - behind; // the next tile is sliced while the banks catch up
     return cycles;

@@ -33,12 +33,14 @@ void CoarseTile::begin(int tile, const RowChoice& choice) {
     blended_ = 0;
     choose_rows(choice);
     transmittance_.assign(rows_.size() * samples_, 1.0F);
-    live_in_cell_.assign(cell_of(pixel_rows_.last, 0) + cells_x_, 0);
+    cells_.assign(cell_of(pixel_rows_.last, 0) + cells_x_, {});
     live_in_row_.assign(pixel_rows_.last + 1, 0);
     live_ = 0;
+    cells_end_ = 0;
     for (const int row : rows_) {
         for (int column = phase_of(row); column <= columns_.last; column += kApart) {
-            ++live_in_cell_[cell_of(row, column)];
+            Cell& cell = cells_[cell_of(row, column)];
+            cell.live = ++cell.samples;
             ++live_in_row_[row];
             ++live_;
         }
@@ -99,7 +101,7 @@ CoarseSpan CoarseTile::span_of(int row) const {
 }
 
 bool CoarseTile::next() {
-    if (entry_ == end_ || live_ == 0) {
+    if (entry_ == end_ || (live_ == 0 && entry_ >= cells_end_)) {
         return false;
     }
     splat_ = frame_.tile_splats[entry_++];
@@ -178,12 +180,38 @@ void CoarseTile::blend() {
                 ++blended_;
             } else {
                 row[i] = 0;
-                --live_;
-                --live_in_row_[span.row];
-                --live_in_cell_[cell_of(span.row, phase_of(span.row) + i * kApart)];
+                end_sample(span.row, phase_of(span.row) + i * kApart);
             }
         }
     }
+}
+
+void CoarseTile::end_sample(int row, int column) {
+    --live_;
+    --live_in_row_[row];
+    Cell& cell = cells_[cell_of(row, column)];
+    if (cell.live-- == cell.samples) {
+        cell.first_end = entry_;
+    }
+    if (cell.live == 0) {
+        cell.end = end_of(cell);
+        cells_end_ = std::max(cells_end_, cell.end);
+    }
+}
+
+/// The last of all pixels of a cell ends after the last of its samples. Of n values that are spread
+/// evenly over a range the least and the largest lie (n - 1) / (n + 1) of it apart on average, and
+/// the largest at n / (n + 1).
+std::uint64_t CoarseTile::end_of(const Cell& cell) const {
+    const double n = cell.samples;
+    const double all = std::max(n, 1.0 * std::min(options_.cell_width, columns_.size()) *
+                                       std::min(options_.cell_height, pixel_rows_.size()));
+    if (cell.samples == 1) {
+        return 0;
+    }
+    const double range = static_cast<double>(entry_ - cell.first_end) * (n + 1) / (n - 1);
+    const auto more = std::llround(range * (all / (all + 1) - n / (n + 1)));
+    return more == 0 ? 0 : entry_ + more;
 }
 
 EntrySizes entry_sizes(const FrameWorkload& frame, int step) {

@@ -77,9 +77,10 @@ public:
     bool row_is_live(int row) const { return live_in_row_[row] != 0; }
     /// Share of the sampled pixels of the span that have not ended.
     double live_share(const CoarseSpan& span) const;
-    /// False once all sampled pixels of the cell that holds the pixel have ended.
+    /// False once all pixels of the cell that holds the pixel are expected to have ended.
     bool cell_is_live(int row, int column) const {
-        return live_in_cell_[cell_of(row, column)] != 0;
+        const Cell& cell = cells_[cell_of(row, column)];
+        return cell.live != 0 || entry_ <= cell.end;
     }
 
     /// Fragments so far, scaled to all pixels.
@@ -94,6 +95,13 @@ private:
     struct Samples {
         int first, last;
     };
+    struct Cell {
+        int samples = 0, live = 0;   ///< sampled pixels, and those that have not ended
+        std::uint64_t first_end = 0; ///< entries until the first of them had ended
+        std::uint64_t end = 0;       ///< the last one before all pixels have; 0: already
+    };
+    void end_sample(int row, int column);
+    std::uint64_t end_of(const Cell& cell) const;
     std::size_t cell_of(int row, int column) const {
         return row / options_.cell_height * cells_x_ + column / options_.cell_width;
     }
@@ -114,8 +122,10 @@ private:
     std::vector<std::size_t> place_of_row_; ///< in transmittance_, if the row is drawn
     std::uint64_t begin_ = 0, end_ = 0, entry_ = 0;
     std::vector<float> transmittance_; ///< of the sampled pixels; 0: ended
-    std::vector<int> live_in_cell_, live_in_row_;
-    int live_ = 0; ///< sampled pixels
+    std::vector<Cell> cells_;
+    std::vector<int> live_in_row_;
+    int live_ = 0;                ///< sampled pixels
+    std::uint64_t cells_end_ = 0; ///< the last end of a cell without a live sample
     std::uint64_t blended_ = 0;
 
     std::uint32_t splat_ = 0;

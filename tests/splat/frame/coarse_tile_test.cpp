@@ -82,6 +82,45 @@ TEST(CoarseTile, OutwardSpansAreAPixelWiderOnAverage) {
     EXPECT_NEAR(outward.fragments, inside.fragments, 1e-9 * inside.fragments);
 }
 
+/// Splats of the list of tile 0 until the pixel ends.
+double end_of_pixel(const FrameWorkload& frame, int x, int y) {
+    double transmittance = 1;
+    for (std::uint64_t entry = 0; entry < frame.tile_begin[1]; ++entry) {
+        const ProjectedSplat& splat = frame.splats[frame.tile_splats[entry]];
+        const double dx = x - splat.mu_x, dy = y - splat.mu_y;
+        const double q =
+            (splat.cov_c * dx * dx - 2 * splat.cov_b * dx * dy + splat.cov_a * dy * dy) / splat.det;
+        transmittance *= 1 - splat.opacity * std::exp(-q / 2);
+        if (transmittance < 1e-4) {
+            return static_cast<double>(entry + 1);
+        }
+    }
+    return static_cast<double>(frame.tile_begin[1]);
+}
+
+// Pixels end later from left to right, and columns 0, 4, 8 and 12 are drawn. Of 16 values that are
+// spread evenly the largest lies at 16/17 of the range, of 4 at 4/5, and 3/5 above the least.
+TEST(CoarseTile, ExpectsPixelsThatAreNotDrawnToEndLater) {
+    GaussianCloud cloud;
+    for (int i = 0; i < 300; ++i) {
+        add_gaussian(cloud, {-2, 0, 4 + 1e-4F * static_cast<float>(i)}, glm::vec3(3), test::kNoTurn,
+                     0.3F, {1, 1, 1});
+    }
+    const FrameWorkload frame =
+        make_frame_workload(cloud, make_camera(16, 16, 16), 16, TileMode::Exact);
+    CoarseTile tile(frame, {16, 1});
+    tile.begin(0, {1, 16, 0});
+    ASSERT_EQ(tile.rows().size(), 1U);
+    while (tile.next()) {
+        EXPECT_TRUE(tile.cell_is_live(0, 0)) << tile.walked();
+        tile.blend();
+    }
+    const double first = end_of_pixel(frame, 0, 0), last = end_of_pixel(frame, 12, 0);
+    EXPECT_NEAR(tile.walked(), last + (last - first) * 5 / 3 * (16. / 17 - 4. / 5), 2);
+    EXPECT_GT(tile.walked(), last + 2);
+    EXPECT_LE(tile.walked(), end_of_pixel(frame, 15, 0));
+}
+
 TEST(CoarseTile, DrawsARowOfAnyTileAndPixelsOfAnyWidth) {
     GaussianCloud cloud;
     add_gaussian(cloud, {0, 0, 5}, glm::vec3(1), test::kNoTurn, 0.9F, {1, 1, 1});

@@ -86,8 +86,10 @@ public:
     /// Cycles of a sorter on a list: until its first splats may be fetched, and in all.
     struct SortCycles {
         double first = 0, all = 0;
-        double busy = 0; ///< of the busier one of its steps
-        double keys = 0; ///< that its steps take in
+        double busy = 0;       ///< of the busier one of its steps
+        double keys = 0;       ///< that its steps take in
+        double outside = 0;    ///< passes of the list through memory
+        double first_step = 0; ///< of `first`, in which the list before may be in the second step
     };
     virtual SortCycles sort_cycles(double /*entries*/, double /*walked*/) const { return {}; }
     /// Splats that are fetched while those of the tile before are in work.

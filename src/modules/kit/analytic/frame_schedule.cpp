@@ -8,8 +8,11 @@ namespace degs {
 double schedule(const AnalyticModel& model, const std::vector<ScheduledTile>& tiles,
                 UnitCycles used) {
     const std::size_t sorters = std::max(model.sorters(), 1);
+    // A list may wait between both steps of a sorter.
+    std::vector<double> first_step_free(sorters, 0), list_taken(sorters, 0);
     std::vector<double> sorter_free(sorters, 0), fetcher_free(sorters, 0);
     std::vector<double> engine_free(model.engines(), 0), engine_fetches(model.engines(), 0);
+    double granted = 0; ///< the tile before
     double end = *std::max_element(used.begin(), used.end());
     for (std::size_t t = 0; t < tiles.size(); ++t) {
         const ScheduledTile& tile = tiles[t];
@@ -20,8 +23,14 @@ double schedule(const AnalyticModel& model, const std::vector<ScheduledTile>& ti
         // With one engine a fetcher follows each sorter, else each engine has its own.
         double& fetcher = engine_free.size() == 1 ? fetcher_free[sorter]
                                                   : engine_fetches[engine - engine_free.begin()];
-        const double sorted = sorter_free[sorter] + sort.all;
-        const double fetched = std::max(sorter_free[sorter] + sort.first, fetcher);
+        const double first_step = first_step_free[sorter] + sort.first_step;
+        first_step_free[sorter] = std::max(first_step, list_taken[sorter]);
+        list_taken[sorter] = std::max(first_step, sorter_free[sorter]);
+        const double sorted = list_taken[sorter] + sort.all - sort.first_step;
+        double fetched = std::max(list_taken[sorter] + sort.first - sort.first_step, fetcher);
+        if (engine_free.size() > 1) { // engines are granted tiles in turn
+            granted = fetched = std::max(fetched, granted);
+        }
         sorter_free[sorter] = std::max(sorted, fetched); // the next list waits for its turn
         const double begin = std::max(*engine, fetched + model.memory_latency());
         double over = std::max(begin + cycles.time, sorted);

@@ -104,19 +104,24 @@ double FrontEndLoad::fetch_cycles(double walked) const {
     return std::max(paced, walked / fetching.chunk);
 }
 
+double FrontEndLoad::chunk_bytes() const {
+    return fetching.chunk * scattered_bytes(traffic.splat_bytes, traffic.burst_bytes);
+}
+
 double FrontEndLoad::cycles_per_chunk() const {
-    const double bytes = fetching.chunk * scattered_bytes(traffic.splat_bytes, traffic.burst_bytes);
-    return memory.latency + memory.cycles(bytes);
+    return memory.latency + memory.cycles(chunk_bytes());
 }
 
-double FrontEndLoad::tile_bytes(double entries, double walked, double pixels) const {
-    return (1 + 2 * list_passes) * entries * traffic.list_entry_bytes +
-           fetched(entries, walked) * scattered_bytes(traffic.splat_bytes, traffic.burst_bytes) +
-           pixels * traffic.pixel_bytes;
+double FrontEndLoad::tile_bytes(const CoarseTile& tile, double walked, double outside) const {
+    return (1 + 2 * outside) * tile.entries() * traffic.list_entry_bytes +
+           fetched(tile.entries(), walked) *
+               scattered_bytes(traffic.splat_bytes, traffic.burst_bytes) +
+           tile.pixels() * traffic.pixel_bytes;
 }
 
-double FrontEndLoad::bytes_written(double entries, double pixels) const {
-    return list_passes * entries * traffic.list_entry_bytes + pixels * traffic.pixel_bytes;
+double FrontEndLoad::bytes_written(const CoarseTile& tile, double outside) const {
+    return outside * tile.entries() * traffic.list_entry_bytes +
+           tile.pixels() * traffic.pixel_bytes;
 }
 
 double FrontEndLoad::fetched(double entries, double walked) const {
@@ -143,26 +148,37 @@ cost::Activity pixel_activity(const TileCycles& tiles, double pixel_bytes, int s
 }
 
 AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double entries,
-                                      std::uint64_t capacity) {
-    const double room = as_real(capacity);
+                                      const FrontEndLoad& front) {
+    const double room = as_real(front.sort_capacity);
     const double passes = passes_of(std::min(entries, room), config.merge_ways);
     const double needed =
         entries > room ? passes_of(std::ceil(entries / room), config.merge_ways) : 0;
     const double outside = std::max<double>(needed, config.memory_passes);
     const double all = entries * (passes + outside) / config.keys_per_cycle;
-    return {all, all, all, entries};
+    const double waited = outside * 2 * front.list_access_cycles(entries); // written and read
+    return {all + waited, all + waited, all, entries, outside};
 }
 
 AnalyticModel::SortCycles sort_cycles(const HierarchicalSorter::Config& config, double entries,
-                                      double walked, std::uint64_t capacity) {
+                                      double walked, const FrontEndLoad& front) {
     const double chunk = config.chunk;
-    const double outside = halvings(entries, as_real(capacity));
+    const double outside =
+        std::max<double>(halvings(entries, as_real(front.sort_capacity)), config.memory_levels);
     const double levels = std::max(outside, halvings(entries, chunk));
     const double coarse = entries * levels / config.keys_per_cycle;
     const double sorted = std::min(entries, std::ceil(walked / chunk + 1) * chunk);
     const double fine = sorted * config.fine_cycles_per_key + std::ceil(entries / chunk);
-    return {coarse + std::min(entries, chunk) * config.fine_cycles_per_key, coarse + fine,
-            std::max(coarse, fine), entries + sorted};
+    AnalyticModel::SortCycles sort;
+    sort.busy = std::max(coarse, fine);
+    sort.keys = entries + sorted;
+    sort.outside = outside;
+    // The loader reads the list for the first level; the second step reads it chunk by chunk.
+    const double accesses = std::max(0.0, 2 * outside - 1);
+    sort.first_step = coarse + accesses * front.list_access_cycles(entries);
+    const double reading = outside == 0 ? 0 : front.list_access_cycles(std::min(entries, chunk));
+    sort.first = sort.first_step + std::min(entries, chunk) * config.fine_cycles_per_key + reading;
+    sort.all = sort.first_step + fine + std::ceil(sorted / chunk) * reading;
+    return sort;
 }
 
 } // namespace degs

@@ -54,14 +54,6 @@ struct ListWritingLoad {
 ListWritingLoad list_writing(const FrameWorkload& frame, const TrafficConfig& traffic,
                              const TileBinner::Config& binning);
 
-/// Passes of every list through memory, at least.
-inline int passes_through_memory(const SortingUnit::Config& config) {
-    return config.memory_passes;
-}
-inline int passes_through_memory(const HierarchicalSorter::Config& config) {
-    return config.memory_levels;
-}
-
 class FrontEndLoad {
 public:
     TrafficConfig traffic;
@@ -74,15 +66,20 @@ public:
 
     explicit FrontEndLoad(const MemoryRate& rate) : memory(rate) {}
 
-    int list_passes = 0; ///< of every list through memory
     PreparationCycles preparation(const FrameWorkload& frame, std::size_t memory_unit) const;
     /// Cycles from the request of a chunk of splats to its last byte.
     double cycles_per_chunk() const;
+    double chunk_bytes() const;
+    /// Cycles of an access to `entries` of a list that somebody waits for.
+    double list_access_cycles(double entries) const {
+        return memory.latency + memory.cycles(entries * traffic.list_entry_bytes);
+    }
     /// Cycles in which a fetcher has the first `walked` splats of a list come from memory.
     double fetch_cycles(double walked) const;
-    /// Bytes of a tile: its list, the splats that are fetched, its pixels.
-    double tile_bytes(double entries, double walked, double pixels) const;
-    double bytes_written(double entries, double pixels) const;
+    /// Bytes of a tile: its list, which passes through memory `outside` times, the splats that are
+    /// fetched, its pixels.
+    double tile_bytes(const CoarseTile& tile, double walked, double outside) const;
+    double bytes_written(const CoarseTile& tile, double outside) const;
     double fetched(double entries, double walked) const;
     /// What each block of the front end in the bill of materials does.
     std::vector<cost::Activity> activity(const PreparationCycles& before,
@@ -108,14 +105,14 @@ public:
         TileCycles cycles;
         cycles.walked = walked;
         cycles.fragments = tile.fragments();
-        cycles.bytes = front_.tile_bytes(tile.entries(), walked, tile.pixels());
-        cycles.written = front_.bytes_written(tile.entries(), tile.pixels());
-        cycles.fetched = front_.fetched(tile.entries(), walked);
         const SortCycles sorted = sort_cycles(tile.entries(), walked);
+        cycles.bytes = front_.tile_bytes(tile, walked, sorted.outside);
+        cycles.written = front_.bytes_written(tile, sorted.outside);
+        cycles.fetched = front_.fetched(tile.entries(), walked);
         cycles.sorting = sorted.busy;
         constexpr int kReadAndWritten = 2;
         cycles.keys = kReadAndWritten * sorted.keys;
-        cycles.busy[kSortingUnits] = sorted.all / sorters();
+        cycles.busy[kSortingUnits] = sorted.busy / sorters();
         cycles.busy[memory_unit_] = front_.memory.cycles(cycles.bytes);
         cycles.time = front_.fetch_cycles(walked);
         return cycles;
@@ -133,7 +130,6 @@ protected:
         front_.fetching = config.fetching;
         front_.places = std::uint64_t{1} * chunks * config.fetching.chunk;
         front_.sort_capacity = config.sort_capacity();
-        front_.list_passes = passes_through_memory(config.sorting);
     }
 
 private:
@@ -142,10 +138,10 @@ private:
     std::size_t memory_unit_;
 };
 
-/// Cycles of one sorter for a list of `entries`.
+/// Cycles of one sorter of `front` for a list of `entries`, with what it waits for memory.
 AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double entries,
-                                      std::uint64_t capacity);
+                                      const FrontEndLoad& front);
 AnalyticModel::SortCycles sort_cycles(const HierarchicalSorter::Config& config, double entries,
-                                      double walked, std::uint64_t capacity);
+                                      double walked, const FrontEndLoad& front);
 
 } // namespace degs

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "modules/kit/analytic/ring_dates.hpp"
+
+namespace degs {
+
+/// The Slicing Units of a module without cycles, see GaussianSlicingUnit: splats begin in order, in
+/// the unit that is free first, and a row is sent when every older splat in work has passed it.
+class AnalyticSlicing {
+public:
+    /// `splats_per_cycle`: of a unit. `rows`: of a tile.
+    AnalyticSlicing(int units, int splats_per_cycle, int rows);
+
+    /// A tile begins, not before `date`. A unit sends at most so many of its rows in a cycle.
+    void begin_tile(double date, std::size_t rows_per_cycle);
+    /// The next splat, which is there at `arrived`; returns when a unit takes it.
+    double begin(double arrived);
+    /// Returns when the next row of the splat may be sent.
+    double send(int row);
+    /// The row had to wait for a place until `date`, and all units with it.
+    void stall(double date);
+    /// After the last row of the splat; returns its cycles in the unit.
+    double end();
+    /// When all splats so far have been sent.
+    double done() const { return done_; }
+
+private:
+    double cycles_per_splat_;    ///< at least
+    std::vector<double> free_;   ///< by unit
+    std::vector<double> passed_; ///< by row: when all splats so far have passed it; rising
+    std::vector<double> recent_; ///< the latest rows of the splat, a cycle's worth
+    std::size_t sent_ = 0;       ///< rows of the splat
+    int next_row_ = 0;           ///< that the splat has not passed
+    double begun_ = 0, latest_ = 0, done_ = 0;
+    double stalled_ = 0, stalled_until_ = 0; ///< when the units stood still the last time
+};
+
+} // namespace degs

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+
+#include "modules/kit/analytic/ring_dates.hpp"
+
+namespace degs {
+
+/// Memory as a rate and a latency that serves requests in the order of their dates, like `Memory`,
+/// for a stream that waits for its data and others that post theirs in bursts.
+class MemoryDates {
+public:
+    /// In bytes per cycle and in cycles.
+    MemoryDates(double bytes_per_cycle, double latency)
+        : bytes_per_cycle_(bytes_per_cycle), latency_(latency) {}
+
+    /// Others move `bytes` from `date` on.
+    void post(double date, double bytes);
+    /// The date of the last byte of a read of `bytes` that is asked for at `date`. A read that is
+    /// older than what the memory is busy with was served before.
+    double answer(double date, double bytes);
+
+private:
+    struct Burst {
+        double date, bytes;
+    };
+    double serve(double date, double bytes);
+
+    double bytes_per_cycle_, latency_;
+    std::deque<Burst> posted_; ///< by date
+    double began_ = 0;         ///< since when it is busy
+    double free_ = 0;          ///< and until when
+};
+
+/// A Splat Fetcher without cycles: chunks of splats are asked for in order, each when there is a
+/// place for it and fewer requests are in flight than may be.
+class FetcherDates {
+public:
+    FetcherDates(std::size_t places, std::size_t in_flight)
+        : places_(places), in_flight_(in_flight) {}
+
+    /// When the next chunk, of `bytes`, is there.
+    double next(MemoryDates& memory, double bytes);
+    /// The reader takes it from its place.
+    void take(double date) { places_.replace_oldest(date); }
+
+private:
+    RingDates places_, in_flight_;
+    double asked_ = 0;
+};
+
+} // namespace degs

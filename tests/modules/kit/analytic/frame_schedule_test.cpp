@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The schedule of tiles, and the cycles of sorters, against dates worked out by hand.
+#include "modules/kit/analytic/frame_schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include "modules/kit/analytic/front_end_load.hpp"
+
+namespace degs {
+namespace {
+
+/// A design that only sorts, a cycle per entry in each of two steps, and has engines.
+class SortingOnly : public AnalyticModel {
+public:
+    SortingOnly(int sorters, int engines) : sorters_(sorters), engines_(engines) {}
+    std::vector<std::string> units() const override { return {"memory"}; }
+    PreparationCycles preparation(const FrameWorkload&) const override { return {}; }
+    std::unique_ptr<TileClock> clock(const FrameWorkload&) const override { return nullptr; }
+    CoarseTile::Options drawing() const override { return {}; }
+    Blocks blocks() const override { return {}; }
+    int sorters() const override { return sorters_; }
+    SortCycles sort_cycles(double entries, double) const override {
+        SortCycles sort;
+        sort.first_step = entries;
+        sort.first = sort.all = 2 * entries; // handed over as a whole
+        return sort;
+    }
+    int engines() const override { return engines_; }
+    double memory_latency() const override { return 0; }
+    TileCycles background(double) const override { return {}; }
+    double latency() const override { return 0; }
+    int pes() const override { return 1; }
+    std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles&,
+                                         const TileCycles&) const override {
+        return {};
+    }
+    const MainMemoryConfig& main_memory() const override { return memory_; }
+
+private:
+    int sorters_, engines_;
+    MainMemoryConfig memory_;
+};
+
+double end_of(const AnalyticModel& model, const std::vector<double>& lists) {
+    std::vector<ScheduledTile> tiles;
+    for (const double entries : lists) {
+        ScheduledTile tile;
+        tile.entries = entries;
+        tile.cycles.time = 1;
+        tiles.push_back(tile);
+    }
+    return schedule(model, tiles, {});
+}
+
+// A list is in the first step while the one before is in the second.
+TEST(FrameSchedule, StepsOfASorterOverlap) {
+    const SortingOnly model(1, 1);
+    EXPECT_EQ(end_of(model, {100}), 201);
+    EXPECT_EQ(end_of(model, {100, 100, 100}), 401);
+}
+
+TEST(FrameSchedule, AListWaitsForTheSlowerStep) {
+    const SortingOnly model(1, 1);
+    EXPECT_EQ(end_of(model, {10, 100}), 211) << "10 and 100 of the first step, 100 of the second";
+    EXPECT_EQ(end_of(model, {100, 10}), 211) << "the second step has 100 and 10";
+}
+
+// The short list is complete long before it is its turn.
+TEST(FrameSchedule, EnginesAreGrantedTilesInTurn) {
+    EXPECT_EQ(end_of(SortingOnly(2, 2), {1000, 10}), 2001);
+    EXPECT_EQ(end_of(SortingOnly(2, 2), {1000, 10, 10, 10}), 2011)
+        << "the next list of a sorter waits until the one before has been granted";
+}
+
+FrontEndLoad front_of(std::uint64_t capacity) {
+    MainMemoryConfig config;
+    MemoryRate rate(config, 1);
+    rate.bytes_per_cycle = 64;
+    rate.latency = 100;
+    FrontEndLoad front(rate);
+    front.traffic.list_entry_bytes = 8;
+    front.sort_capacity = capacity;
+    return front;
+}
+
+// 16 runs of 64 keys, each in 6 passes of 2 ways, are merged in 4 passes through memory, and each
+// writes and reads 8 KB.
+TEST(SortCycles, PassesThroughMemoryWaitForIt) {
+    SortingUnit::Config config;
+    config.keys_per_cycle = 1;
+    config.merge_ways = 2;
+    const auto inside = sort_cycles(config, 1024, front_of(1024));
+    EXPECT_EQ(inside.outside, 0);
+    EXPECT_EQ(inside.all, 10 * 1024);
+    const auto through = sort_cycles(config, 1024, front_of(64));
+    EXPECT_EQ(through.outside, 4);
+    EXPECT_EQ(through.busy, 10 * 1024);
+    EXPECT_EQ(through.all, 10 * 1024 + 4 * 2 * (100 + 128));
+}
+
+// 1024 keys are parted twice into chunks of 256, the first time through memory: the loader has read
+// the list, so that it is written once, and the second step reads four chunks.
+TEST(SortCycles, LevelsThroughMemoryWaitForIt) {
+    HierarchicalSorter::Config config;
+    config.chunk = 256;
+    config.keys_per_cycle = 2;
+    config.fine_cycles_per_key = 2;
+    const auto sort = sort_cycles(config, 1024, 1024, front_of(512));
+    EXPECT_EQ(sort.outside, 1);
+    EXPECT_EQ(sort.first_step, 2 * 512 + 100 + 128);
+    EXPECT_EQ(sort.first, sort.first_step + 512 + 100 + 32);
+    EXPECT_EQ(sort.all, sort.first_step + 2048 + 4 + 4 * (100 + 32));
+}
+
+} // namespace
+} // namespace degs
