@@ -35,14 +35,13 @@ void CoarseTile::begin(int tile, const RowChoice& choice) {
     transmittance_.assign(rows_.size() * samples_, 1.0F);
     cells_.assign(cell_of(pixel_rows_.last, 0) + cells_x_, {});
     live_in_row_.assign(pixel_rows_.last + 1, 0);
-    live_ = 0;
-    cells_end_ = 0;
+    whole_ = {};
     for (const int row : rows_) {
         for (int column = phase_of(row); column <= columns_.last; column += kApart) {
             Cell& cell = cells_[cell_of(row, column)];
             cell.live = ++cell.samples;
             ++live_in_row_[row];
-            ++live_;
+            whole_.live = ++whole_.samples;
         }
     }
 }
@@ -101,7 +100,7 @@ CoarseSpan CoarseTile::span_of(int row) const {
 }
 
 bool CoarseTile::next() {
-    if (entry_ == end_ || (live_ == 0 && entry_ >= cells_end_)) {
+    if (entry_ == end_ || (whole_.live == 0 && entry_ >= whole_.end)) {
         return false;
     }
     splat_ = frame_.tile_splats[entry_++];
@@ -187,31 +186,31 @@ void CoarseTile::blend() {
 }
 
 void CoarseTile::end_sample(int row, int column) {
-    --live_;
     --live_in_row_[row];
-    Cell& cell = cells_[cell_of(row, column)];
+    const int width = columns_.size(), height = pixel_rows_.size();
+    end_sample(whole_, width, height);
+    end_sample(cells_[cell_of(row, column)], std::min(options_.cell_width, width),
+               std::min(options_.cell_height, height));
+}
+
+/// If pixels end evenly later across a block of so many, in some direction, the last of them ends
+/// after the last sample by as much as the samples end one after the other over that distance: half
+/// the gap between samples, less a pixel, in either direction.
+void CoarseTile::end_sample(Cell& cell, int width, int height) const {
     if (cell.live-- == cell.samples) {
         cell.first_end = entry_;
     }
-    if (cell.live == 0) {
-        cell.end = end_of(cell);
-        cells_end_ = std::max(cells_end_, cell.end);
+    if (cell.live != 0) {
+        return;
     }
-}
-
-/// The last of all pixels of a cell ends after the last of its samples. Of n values that are spread
-/// evenly over a range the least and the largest lie (n - 1) / (n + 1) of it apart on average, and
-/// the largest at n / (n + 1).
-std::uint64_t CoarseTile::end_of(const Cell& cell) const {
-    const double n = cell.samples;
-    const double all = std::max(n, 1.0 * std::min(options_.cell_width, columns_.size()) *
-                                       std::min(options_.cell_height, pixel_rows_.size()));
-    if (cell.samples == 1) {
-        return 0;
-    }
-    const double range = static_cast<double>(entry_ - cell.first_end) * (n + 1) / (n - 1);
-    const auto more = std::llround(range * (all / (all + 1) - n / (n + 1)));
-    return more == 0 ? 0 : entry_ + more;
+    const double columns = std::max(1.0, 1.0 * width / kApart);
+    const double rows = std::max(1.0, cell.samples / columns);
+    const double gap_x = width / columns, gap_y = std::max(1.0, height / rows);
+    const double sampled = std::max(0.0, width - gap_x) + std::max(0.0, height - gap_y);
+    const double beyond = (gap_x - 1 + gap_y - 1) / 2;
+    const double range = static_cast<double>(entry_ - cell.first_end);
+    const auto more = sampled == 0 ? 0 : std::llround(range * beyond / sampled);
+    cell.end = more == 0 ? 0 : entry_ + more;
 }
 
 EntrySizes entry_sizes(const FrameWorkload& frame, int step) {

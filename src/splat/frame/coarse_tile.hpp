@@ -101,7 +101,7 @@ private:
         std::uint64_t end = 0;       ///< the last one before all pixels have; 0: already
     };
     void end_sample(int row, int column);
-    std::uint64_t end_of(const Cell& cell) const;
+    void end_sample(Cell& cell, int width, int height) const;
     std::size_t cell_of(int row, int column) const {
         return row / options_.cell_height * cells_x_ + column / options_.cell_width;
     }
@@ -124,8 +124,7 @@ private:
     std::vector<float> transmittance_; ///< of the sampled pixels; 0: ended
     std::vector<Cell> cells_;
     std::vector<int> live_in_row_;
-    int live_ = 0;                ///< sampled pixels
-    std::uint64_t cells_end_ = 0; ///< the last end of a cell without a live sample
+    Cell whole_; ///< the tile
     std::uint64_t blended_ = 0;
 
     std::uint32_t splat_ = 0;
