@@ -20,8 +20,7 @@ public:
     int engines() const override { return config_.arrays.count; }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double /*walked*/) const override { // handed over whole
-        SortCycles sorted =
-            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity);
+        SortCycles sorted = degs::sort_cycles(config_.sorting, entries, entries, front());
         sorted.first = sorted.all;
         return sorted;
     }

@@ -58,7 +58,7 @@ std::string run_one(const Trial& trial, const std::string& configs, const std::s
     request.fidelity = fidelity;
     request.build.array_only = trial.array_only;
     const sim::View view =
-        sim::load_view({trial.scene, cameras, trial.camera, trial.width, trial.height, "", ""});
+        sim::load_view({trial.scene, cameras, trial.camera, trial.width, trial.height, "", "", ""});
     double seconds = 0;
     const std::vector<FrameWorkload> workloads = sim::make_workloads(
         view.scene.cloud, view.scene.traits,

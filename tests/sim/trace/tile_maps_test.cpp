@@ -105,11 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Designs, MapsOf,
                          });
 
 sim::TileMaps two_tiles() {
-    sim::TileMaps maps;
-    maps.tiles_x = 2;
-    maps.tiles_y = 1;
-    maps.tile_size = 4;
-    return maps;
+    return {TileGrid(8, 3, 4), {}};
 }
 
 double brightness(const Image& image, int x, int y) {
