@@ -29,20 +29,21 @@ std::string poses_file(const Folder& folder, const std::string& rows) {
     return file;
 }
 
-/// Every frame is what degs run says of its camera.
+/// Every frame is what degs run says of its camera, if all have the lens of the first.
 TEST(MotionRuns, GoesThroughTheCameras) {
     const Folder folder;
-    const Outcome outcome = motion(folder / "m", {"--rates", "90,120", "--jobs", "2"});
+    const Outcome outcome =
+        motion(folder / "m", {"--camera", "1", "--rates", "90,120", "--jobs", "2"});
     expect_success(outcome);
     const nlohmann::json written = document_in(folder / "m");
-    EXPECT_EQ(written["frames"], 3);
+    EXPECT_EQ(written["frames"], 2);
     ASSERT_EQ(written["designs"].size(), 2U);
     ASSERT_EQ(written["designs"][1]["displays"].size(), 2U);
     for (const char* file : {"motion.csv", "index.html", "latency.svg", "refreshes.svg"}) {
         EXPECT_TRUE(fs::exists(fs::path(folder / "m") / file)) << file;
     }
     double worst = 0;
-    for (const char* camera : {"0", "1", "2"}) {
+    for (const char* camera : {"1", "2"}) {
         expect_success(degs({"run", config("degs-16"), "--scene", kMotionScene, "--camera", camera,
                              "--width", "64", "--no-reference", "--out", folder / "r"}));
         const nlohmann::json report =
