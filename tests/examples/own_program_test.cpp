@@ -66,9 +66,9 @@ TEST(OwnProgram, EstimatesTheFrame) {
 
 TEST(OwnProgram, SamplesTiles) {
     const Folder folder;
-    ASSERT_EQ(run(folder, {"--no-reference"}, "960").code, 0);
+    ASSERT_EQ(run(folder, {"--no-reference"}, "1920").code, 0);
     const double cycles = cycles_of(report_in(folder / "out"));
-    const Outcome sampled = run(folder, {"--no-reference", "--within", "5%"}, "960");
+    const Outcome sampled = run(folder, {"--no-reference", "--within", "5%"}, "1920");
     ASSERT_EQ(sampled.code, 0) << sampled.err;
     const nlohmann::json report = report_in(folder / "out");
     EXPECT_LT(report["sampling"]["tiles_simulated"], report["sampling"]["tiles"]);

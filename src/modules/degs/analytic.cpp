@@ -32,7 +32,7 @@ public:
     Blocks blocks() const override {
         constexpr int kLeastBanks = 8;
         const int banks = std::gcd(config_.scheduler.banks, config_.span.count);
-        return {1, std::max(1, banks / std::max(kLeastBanks, banks / 2))};
+        return {1, std::max(1, banks / std::max(kLeastBanks, banks / 2)), 1, banks};
     }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override {

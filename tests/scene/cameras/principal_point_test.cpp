@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Principal points off the middle, in every format of cameras.
 #include "scene/gltf/gltf.hpp"
+#include "scene/scene.hpp"
 #include "tests/scene/cameras/camera_builder.hpp"
 #include "tests/scene/cameras/seen_pixel.hpp"
 

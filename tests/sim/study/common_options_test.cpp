@@ -90,7 +90,7 @@ TEST(MemoryOption, IsRefusedWhereNoMemoryIsSimulated) {
         std::vector<std::string> all = words;
         all.insert(all.end(), {"--memory", memory});
         expect_mistake(degs(all), "'--memory' is not expected here; it is an option of run, "
-                                  "compare, sweep, explore, soc, accuracy.");
+                                  "compare, sweep, explore, motion, soc, accuracy.");
     }
     expect_mistake(degs({"accuracy", "--scene", "synthetic:single", "--memory", memory}),
                    "--memory requires --speed");

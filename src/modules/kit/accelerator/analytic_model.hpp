@@ -74,9 +74,10 @@ public:
     /// What the clock asks of a tile.
     virtual CoarseTile::Options drawing() const = 0;
     /// How rows may be left out of a tile: of blocks of `height` rows one in up to `most_apart` is
-    /// drawn, and of that every `step`-th row.
+    /// drawn, and of that every `step`-th row. One in up to `most_fitted` is enough where a fit to
+    /// simulated tiles takes out the bias; 0: no fewer than for an estimate.
     struct Blocks {
-        int height = 1, most_apart = 1, step = 1;
+        int height = 1, most_apart = 1, step = 1, most_fitted = 0;
     };
     virtual Blocks blocks() const = 0;
     /// Host time of the clock for a splat without a drawn row, over that of most clocks.

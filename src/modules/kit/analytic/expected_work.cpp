@@ -22,7 +22,8 @@ constexpr std::size_t kRun = 128;
 int blocks_apart(const FrameWorkload& frame, const AnalyticModel::Blocks& blocks,
                  const EntrySizes& sizes, std::size_t tiles) {
     const auto entries = static_cast<double>(frame.tile_pairs());
-    const int most = blocks.most_apart * (tiles >= kManyTiles ? 2 : 1);
+    const int most =
+        std::max(blocks.most_apart * (tiles >= kManyTiles ? 2 : 1), blocks.most_fitted);
     int apart = 1;
     while (entries * (1 + sizes.visits / apart) > kMostVisits && 2 * apart <= most) {
         apart *= 2;
