@@ -12,7 +12,7 @@
 namespace degs::sim_test {
 namespace {
 
-const std::string kSmall = "synthetic:object,gaussians=2000";
+const std::string kBootScene = "synthetic:object,gaussians=2000";
 
 std::vector<std::string> boot(const std::string& design, const std::vector<std::string>& more) {
     std::vector<std::string> words{"soc", config(design), "--cpu", "riscv"};
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Designs, SmallRunBoot,
 TEST(SmallRunSoc, AStatusOfFirmwareIsAnError) {
     const Folder folder;
     write_bytes(folder / "three.elf", executable({0x00300093, 0x20000137, 0x00112223, 0x10500073}));
-    const Outcome outcome = degs(boot("degs-16", {"--scene", kSmall, "--firmware",
+    const Outcome outcome = degs(boot("degs-16", {"--scene", kBootScene, "--firmware",
                                                   folder / "three.elf", "--out", folder / "out"}));
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(outcome.err, "degs: The firmware ended with status 3.\n");
@@ -95,7 +95,7 @@ TEST(SmallRunSoc, AStatusOfFirmwareIsAnError) {
 TEST(SmallRunSoc, FirmwareThatSleepsForEverIsAnError) {
     const Folder folder;
     write_bytes(folder / "sleep.elf", executable({0x10500073}));
-    const Outcome outcome = degs(boot("degs-16", {"--scene", kSmall, "--firmware",
+    const Outcome outcome = degs(boot("degs-16", {"--scene", kBootScene, "--firmware",
                                                   folder / "sleep.elf", "--out", folder / "out"}));
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(outcome.err, "degs: The firmware waits for an interrupt that never comes.\n");
@@ -108,7 +108,7 @@ TEST(HostileFirmware, IsRefusedInASentence) {
     const auto refused = [&](const std::string& name, const std::vector<unsigned char>& bytes,
                              const std::string& sentence) {
         write_bytes(folder / name, bytes);
-        expect_mistake(degs(boot("degs-16", {"--scene", kSmall, "--firmware", folder / name})),
+        expect_mistake(degs(boot("degs-16", {"--scene", kBootScene, "--firmware", folder / name})),
                        "degs: " + (folder / name) + sentence + "\n");
     };
     auto wide = executable({0x10500073});
@@ -126,15 +126,16 @@ TEST(HostileFirmware, IsRefusedInASentence) {
             " is too large: it takes memory up to address 131076, and the core has 131072 bytes of "
             "its own.");
     refused("late", late, " has no entry: no code lies where it says that it starts.");
-    expect_mistake(degs(boot("degs-16", {"--scene", kSmall, "--firmware", folder / "nowhere.elf"})),
-                   "nowhere.elf");
+    expect_mistake(
+        degs(boot("degs-16", {"--scene", kBootScene, "--firmware", folder / "nowhere.elf"})),
+        "nowhere.elf");
 }
 
 TEST(HostileFirmware, OptionsOfTheOtherPlatformAreRefused) {
-    expect_mistake(degs(boot("degs-16", {"--scene", kSmall, "--load", "5"})),
+    expect_mistake(degs(boot("degs-16", {"--scene", kBootScene, "--load", "5"})),
                    "degs: --load has no meaning with --cpu riscv, whose platform has the core and "
                    "the accelerator alone.\n");
-    expect_mistake(degs({"soc", config("degs-16"), "--scene", kSmall, "--firmware", "x.elf"}),
+    expect_mistake(degs({"soc", config("degs-16"), "--scene", kBootScene, "--firmware", "x.elf"}),
                    "degs: --firmware needs --cpu riscv.\n");
 }
 
