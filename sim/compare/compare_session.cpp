@@ -123,13 +123,7 @@ void CompareSession::take(const ViewRun& started, ChildOutcome&& outcome) {
                              (started.path ? "-path.json" : ".json");
     folder.write_text(file, summary.report);
     summary.report.clear();
-    for (const std::string& sentence : summary.warnings) {
-        std::string warning = name;
-        warning.append(": ").append(sentence);
-        if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) {
-            warnings_.push_back(warning);
-        }
-    }
+    add_warnings(warnings_, name, summary.warnings);
     Found& found = found_[{started.view, started.config}];
     (started.path ? found.path : found.frame) = std::move(summary);
     if (!started.path) {
@@ -186,18 +180,7 @@ std::optional<Failure> CompareSession::failure() const {
     if (interrupted_) {
         return interruption();
     }
-    if (failures_.empty()) {
-        return {};
-    }
-    Failure worst = failures_.front();
-    for (const Failure& failure : failures_) {
-        worst = failure.code == kInternalError && worst.code != kInternalError ? failure : worst;
-    }
-    if (failures_.size() > 1) {
-        worst.sentence = std::to_string(failures_.size()) +
-                         " parts of the comparison failed, one of them with: " + worst.sentence;
-    }
-    return worst;
+    return worst_of(failures_, "parts of the comparison");
 }
 
 } // namespace degs::sim

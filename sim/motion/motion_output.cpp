@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/report/report.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
 
@@ -37,14 +38,24 @@ nlohmann::ordered_json design_json(const DesignMotion& design) {
     return json;
 }
 
+std::string text_of(const MotionTable& table) {
+    TextTable text(table.headings);
+    for (const std::vector<std::string>& row : table.rows) {
+        text.add(row);
+    }
+    return text.text();
+}
+
 } // namespace
 
 nlohmann::ordered_json motion_json(const MotionWords& words, const Motion& motion) {
-    nlohmann::ordered_json json{{"format", "degs motion 1"},
-                                {"scene", words.scene},
-                                {"size", words.size},
-                                {"fidelity", words.estimated ? "analytic" : "exact"},
-                                {"frames", motion.times_s.size()}};
+    nlohmann::ordered_json json;
+    json["schema"] = {{"name", "degs-motion"}, {"version", 1}};
+    json["tool"] = tool_json();
+    json["scene"] = words.scene;
+    json["size"] = words.size;
+    json["fidelity"] = words.estimated ? "analytic" : "exact";
+    json["frames"] = motion.times_s.size();
     json["designs"] = nlohmann::ordered_json::array();
     for (const DesignMotion& design : motion.designs) {
         json["designs"].push_back(design_json(design));
@@ -68,37 +79,43 @@ std::string motion_csv(const Motion& motion) {
     return text;
 }
 
-std::string motion_text(const MotionWords& words, const Motion& motion) {
-    TextTable latencies({"latency, ms", "P50", "P95", "P99", "worst", "in frame"});
-    TextTable displays(
-        {"display", "design", "in time", "new images", "motion to photon, ms", "P95", "worst"});
+MotionTable latency_table(const Motion& motion) {
+    MotionTable table{{"latency, ms", "P50", "P95", "P99", "worst", "in frame"}, {}};
     for (const DesignMotion& design : motion.designs) {
-        if (!design.ranks) {
-            continue;
+        if (design.ranks) {
+            const LatencyRanks& ranks = *design.ranks;
+            table.rows.push_back({design.name, three_digits(ranks.p50), three_digits(ranks.p95),
+                                  three_digits(ranks.p99), three_digits(ranks.worst),
+                                  std::to_string(ranks.worst_frame)});
         }
-        const LatencyRanks& ranks = *design.ranks;
-        latencies.add({design.name, three_digits(ranks.p50), three_digits(ranks.p95),
-                       three_digits(ranks.p99), three_digits(ranks.worst),
-                       std::to_string(ranks.worst_frame)});
     }
+    return table;
+}
+
+MotionTable display_table(const Motion& motion) {
+    MotionTable table{
+        {"display", "design", "in time", "new images", "motion to photon, ms", "P95", "worst"}, {}};
     for (std::size_t rate = 0; rate < motion.rates_hz.size(); ++rate) {
         for (const DesignMotion& design : motion.designs) {
-            if (design.displays.empty()) {
-                continue;
+            if (!design.displays.empty()) {
+                const DisplayResult& display = design.displays[rate];
+                table.rows.push_back(
+                    {decimal_text(display.hz) + " Hz", design.name,
+                     std::to_string(display.frames - display.missed) + " of " +
+                         std::to_string(display.frames),
+                     percent(display.new_images()) + " %", three_digits(display.photon_mean_ms),
+                     three_digits(display.photon_p95_ms), three_digits(display.photon_worst_ms)});
             }
-            const DisplayResult& display = design.displays[rate];
-            displays.add({decimal_text(display.hz) + " Hz", design.name,
-                          std::to_string(display.frames - display.missed) + " of " +
-                              std::to_string(display.frames),
-                          percent(display.new_images()) + " %",
-                          three_digits(display.photon_mean_ms), three_digits(display.photon_p95_ms),
-                          three_digits(display.photon_worst_ms)});
         }
     }
+    return table;
+}
+
+std::string motion_text(const MotionWords& words, const Motion& motion) {
     return words.scene + " · " + words.size + " · " + std::to_string(motion.times_s.size()) +
            (motion.times_s.size() == 1 ? " frame" : " frames") +
-           (words.estimated ? " · estimated" : "") + "\n" + latencies.text() + "\n" +
-           displays.text();
+           (words.estimated ? " · estimated" : "") + "\n" + text_of(latency_table(motion)) + "\n" +
+           text_of(display_table(motion));
 }
 
 } // namespace degs::sim

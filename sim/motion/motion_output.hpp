@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -14,6 +15,16 @@ struct MotionWords {
     std::string scene, size; ///< "flowers", "640×427"
     bool estimated = false;  ///< by the analytic model
 };
+
+/// A table in words: for terminals and for the page.
+struct MotionTable {
+    std::vector<std::string> headings;
+    std::vector<std::vector<std::string>> rows;
+};
+/// Percentiles of the latency, by design.
+MotionTable latency_table(const Motion& motion);
+/// What displays show, by rate and design.
+MotionTable display_table(const Motion& motion);
 
 nlohmann::ordered_json motion_json(const MotionWords& words, const Motion& motion);
 /// A row for each frame, a column for each design.

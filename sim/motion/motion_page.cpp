@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/motion/motion_output.hpp"
 #include "sim/page/page.hpp"
-#include "sim/text/words.hpp"
 
 namespace degs::sim {
 namespace {
@@ -21,46 +20,13 @@ std::string row(const char* cell, const std::vector<std::string>& cells) {
     return html + "</tr>\n";
 }
 
-std::string table(const std::vector<std::string>& head,
-                  const std::vector<std::vector<std::string>>& rows) {
-    std::string html = "<div class=\"wide\"><table><thead>" + row("th", head) + "</thead><tbody>\n";
-    for (const auto& cells : rows) {
+std::string html_of(const MotionTable& table) {
+    std::string html =
+        "<div class=\"wide\"><table><thead>" + row("th", table.headings) + "</thead><tbody>\n";
+    for (const std::vector<std::string>& cells : table.rows) {
         html += row("td", cells);
     }
     return html + "</tbody></table></div>\n";
-}
-
-std::string latencies(const Motion& motion) {
-    std::vector<std::vector<std::string>> rows;
-    for (const DesignMotion& design : motion.designs) {
-        if (design.ranks) {
-            const LatencyRanks& ranks = *design.ranks;
-            rows.push_back({design.name, three_digits(ranks.p50), three_digits(ranks.p95),
-                            three_digits(ranks.p99), three_digits(ranks.worst),
-                            std::to_string(ranks.worst_frame)});
-        }
-    }
-    return table({"design", "half of the frames, ms", "95 %", "99 %", "all", "slowest frame"},
-                 rows);
-}
-
-std::string displays(const Motion& motion) {
-    std::vector<std::vector<std::string>> rows;
-    for (std::size_t rate = 0; rate < motion.rates_hz.size(); ++rate) {
-        for (const DesignMotion& design : motion.designs) {
-            if (!design.displays.empty()) {
-                const DisplayResult& display = design.displays[rate];
-                rows.push_back(
-                    {decimal_text(display.hz) + " Hz", design.name,
-                     std::to_string(display.missed) + " of " + std::to_string(display.frames),
-                     std::to_string(display.repeated) + " of " + std::to_string(display.refreshes),
-                     three_digits(display.photon_mean_ms), three_digits(display.photon_worst_ms)});
-            }
-        }
-    }
-    return table({"display", "design", "frames too late", "refreshes without a new image",
-                  "motion to photon, ms", "at worst"},
-                 rows);
 }
 
 } // namespace
@@ -71,8 +37,9 @@ std::string motion_page(const MotionWords& words, const Motion& motion) {
     return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
            "name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
            html_escaped(title) + "</title><style>" + kMotionStyle + "</style></head><body>\n<h1>" +
-           html_escaped(title) + "</h1>\n" + motion_latency_svg(words, motion) + latencies(motion) +
-           motion_refresh_svg(words, motion) + displays(motion) + "</body></html>\n";
+           html_escaped(title) + "</h1>\n" + motion_latency_svg(words, motion) +
+           html_of(latency_table(motion)) + motion_refresh_svg(words, motion) +
+           html_of(display_table(motion)) + "</body></html>\n";
 }
 
 } // namespace degs::sim

@@ -90,7 +90,7 @@ void draw_frame(Svg& svg, const Axes& axes) {
              {kSmallText, kGrey, "start", false});
 }
 
-/// Half of the frames lie below the thick part, and all below the thin one.
+/// The thick line goes from P50 to P95, the thin one on to the worst frame.
 void draw_ranks(Svg& svg, const Axes& axes, const Motion& motion) {
     const double width = (kRankRight - kRankLeft) / ratio_of(motion.designs.size(), 1);
     for (std::size_t d = 0; d < motion.designs.size(); ++d) {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/motion/motion_session.hpp"
 
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "degs/error.hpp"
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"
 #include "sim/results/run_summary.hpp"
+#include "sim/simulation/warnings.hpp"
 
 namespace degs::sim {
 namespace {
 
+constexpr double kWritesApart = 1; // s
 constexpr const char* kDocument = "motion.json";
 constexpr const char* kTable = "motion.csv";
 constexpr const char* kIndex = "index.html";
@@ -55,6 +55,9 @@ const Motion& MotionSession::run() {
     if (unwritten_) {
         throw FailureError(*unwritten_);
     }
+    if (found_) {
+        write();
+    }
     return motion_;
 }
 
@@ -62,7 +65,9 @@ void MotionSession::end(const ViewRun& run, ChildOutcome&& outcome) {
     const bool good = !outcome.failure;
     try {
         take(run, outcome);
-        out_.replace([this] { write(); });
+        if (found_ && written_.seconds() >= kWritesApart) { // a long path has large files
+            write();
+        }
     } catch (const InputError& why) {
         unwritten_ =
             Failure{kUserError, "The results of " + run.name + " were not kept: " + why.what() +
@@ -82,24 +87,21 @@ void MotionSession::take(const ViewRun& run, const ChildOutcome& outcome) {
         return;
     }
     const RunSummary summary = summary_from(outcome.output);
-    const std::string& name = request_.configs[run.config].name;
-    for (const std::string& sentence : summary.warnings) {
-        std::string warning = name;
-        warning.append(": ").append(sentence);
-        if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) {
-            warnings_.push_back(warning);
-        }
-    }
+    found_ = true;
+    add_warnings(warnings_, request_.configs[run.config].name, summary.warnings);
     motion_.designs[run.config].ms[run.camera] = summary.measures[Measure::LatencyMs];
 }
 
 void MotionSession::write() {
     judge_motion(motion_);
-    out_.write_json(kDocument, motion_json(words_, motion_));
-    out_.write_text(kTable, motion_csv(motion_));
-    out_.write_text(kLatency, motion_latency_svg(words_, motion_));
-    out_.write_text(kRefresh, motion_refresh_svg(words_, motion_));
-    out_.write_text(kIndex, motion_page(words_, motion_));
+    out_.replace([this] {
+        out_.write_json(kDocument, motion_json(words_, motion_));
+        out_.write_text(kTable, motion_csv(motion_));
+        out_.write_text(kLatency, motion_latency_svg(words_, motion_));
+        out_.write_text(kRefresh, motion_refresh_svg(words_, motion_));
+        out_.write_text(kIndex, motion_page(words_, motion_));
+    });
+    written_ = Stopwatch();
 }
 
 Failure MotionSession::interruption() const {
@@ -111,15 +113,7 @@ std::optional<Failure> MotionSession::failure() const {
     if (interrupted_) {
         return interruption();
     }
-    if (failures_.empty()) {
-        return {};
-    }
-    Failure worst = failures_.front();
-    if (failures_.size() > 1) {
-        worst.sentence = std::to_string(failures_.size()) +
-                         " frames failed, one of them with: " + worst.sentence;
-    }
-    return worst;
+    return worst_of(failures_, "frames");
 }
 
 } // namespace degs::sim

@@ -7,6 +7,7 @@
 
 #include "sim/motion/motion.hpp"
 #include "sim/motion/motion_output.hpp"
+#include "sim/process/stopwatch.hpp"
 #include "sim/runs/run_progress.hpp"
 #include "sim/runs/view_runs.hpp"
 #include "sim/shell/output_folder.hpp"
@@ -16,7 +17,7 @@ namespace degs::sim {
 /// Names of the files that a session writes into its folder.
 std::vector<std::string> motion_files();
 
-/// Renders every frame of a path by itself on all designs. Results are written after every run.
+/// Renders every frame of a path by itself on all designs. Results are written every second.
 class MotionSession {
 public:
     /// `request` has one scene and the views of the path; it and `out` outlive this object.
@@ -26,7 +27,8 @@ public:
     MotionSession& operator=(const MotionSession&) = delete;
 
     /// Returns when all is done or Ctrl-C has come. A run that fails costs its frame and design,
-    /// which failure() reports. Throws FailureError as soon as results cannot be written.
+    /// which failure() reports. Throws FailureError as soon as results cannot be written, and
+    /// InputError if the last ones cannot.
     const Motion& run();
     std::optional<Failure> failure() const;
     /// The warnings of the runs, each sentence once for each design.
@@ -45,7 +47,8 @@ private:
     std::vector<std::string> warnings_;
     std::vector<Failure> failures_;
     std::optional<Failure> unwritten_;
-    bool interrupted_ = false;
+    bool interrupted_ = false, found_ = false;
+    Stopwatch written_;
     RunProgress progress_{"frame"};
     ViewRuns runs_; ///< the last, because it calls back
 };

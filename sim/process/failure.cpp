@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/process/failure.hpp"
 
+#include <algorithm>
 #include <new>
 
 #include <systemc>
@@ -26,6 +27,21 @@ Failure failure_of(const std::exception_ptr& error) {
     } catch (...) {
         return {kInternalError, "Internal error of unknown kind."};
     }
+}
+
+std::optional<Failure> worst_of(const std::vector<Failure>& failures, const std::string& what) {
+    if (failures.empty()) {
+        return {};
+    }
+    const auto internal = std::find_if(failures.begin(), failures.end(), [](const Failure& each) {
+        return each.code == kInternalError;
+    });
+    Failure worst = internal == failures.end() ? failures.front() : *internal;
+    if (failures.size() > 1) {
+        worst.sentence = std::to_string(failures.size()) + " " + what +
+                         " failed, one of them with: " + worst.sentence;
+    }
+    return worst;
 }
 
 } // namespace degs::sim

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <exception>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace degs::sim {
 
@@ -32,5 +34,9 @@ private:
 /// Turns an exception into a sentence for the user and an exit code. Throws only for lack of
 /// memory.
 Failure failure_of(const std::exception_ptr& error);
+
+/// One of several failures, which says how many of `what` ("points") failed: the first of the model
+/// or the machine, if there is one. None if there are none.
+std::optional<Failure> worst_of(const std::vector<Failure>& failures, const std::string& what);
 
 } // namespace degs::sim

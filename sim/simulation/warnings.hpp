@@ -21,6 +21,9 @@ std::vector<std::string> near_plane_warnings(const CullCounts& culled,
 std::vector<std::string> near_plane_warnings(const std::vector<const FrameWorkload*>& frames);
 /// A sentence if pixels were updated again before their write-back.
 std::vector<std::string> hazard_warnings(const AcceleratorResult& run);
+/// Adds sentences about the design that is called `name`, each once.
+void add_warnings(std::vector<std::string>& all, const std::string& name,
+                  const std::vector<std::string>& sentences);
 /// Prints them on stderr.
 void print_warnings(const std::vector<std::string>& warnings);
 

@@ -6,12 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/visible_text.hpp"
-#include "config/config_document.hpp"
 #include "degs/error.hpp"
 #include "sim/process/stopwatch.hpp"
-#include "sim/report/report.hpp"
 #include "sim/soc/boot_platform.hpp"
 #include "sim/soc/built_in_firmware.hpp"
+#include "sim/soc/soc_study.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
 
@@ -62,14 +61,8 @@ BootResult run_boot(const BootRequest& request, const View& view) {
 
 nlohmann::ordered_json boot_json(const BootRequest& request, const View& view,
                                  const BootResult& result) {
-    nlohmann::ordered_json json;
-    json["schema"] = {{"name", "degs-soc-boot"}, {"version", 1}};
-    json["tool"] = tool_json();
-    json["scene"] = {{"name", view.scene.name}, {"gaussians", view.scene.cloud.size()}};
-    json["camera"] = camera_json(view.camera);
-    json["config"] = resolved(request.config);
-    json["memory"] = {{"name", request.memory.name},
-                      {"peak_gb_per_s", request.memory.peak_gb_per_s()}};
+    nlohmann::ordered_json json =
+        soc_head_json("degs-soc-boot", request.config, request.memory, view);
     json["cpu"] = {{"kind", "riscv"}, {"cycle_ps", kBootCyclePs}, {"firmware", request.firmware}};
     json["console"] = result.console;
     json["status"] = result.status;
@@ -81,11 +74,8 @@ nlohmann::ordered_json boot_json(const BootRequest& request, const View& view,
 }
 
 std::string boot_words(const BootRequest& request, const View& view, const BootResult& result) {
-    const std::string heading = request.config.accelerator().name + " · " + view.scene.name +
-                                " · " + std::to_string(view.camera.width) + "×" +
-                                std::to_string(view.camera.height) + " · " + request.memory.name +
-                                ", " + three_decimals(request.memory.peak_gb_per_s()) +
-                                " GB/s · RV32IM core";
+    const std::string heading =
+        soc_heading(request.config, request.memory, view) + " · RV32IM core";
     const std::string end =
         result.ended ? "ended with status " + std::to_string(result.status) : "sleeps for ever";
     return visible(heading) + "\n" + console_lines(result.console) + "firmware " +

@@ -187,18 +187,11 @@ std::optional<Failure> SweepSession::failure() const {
     if (interrupted_) {
         return interruption();
     }
-    if (failures_.empty()) {
-        return {};
-    }
-    Failure worst = failures_.begin()->second;
+    std::vector<Failure> all;
     for (const auto& [point, failure] : failures_) {
-        worst = failure.code == kInternalError && worst.code != kInternalError ? failure : worst;
+        all.push_back(failure);
     }
-    if (failures_.size() > 1) {
-        worst.sentence = std::to_string(failures_.size()) +
-                         " points failed, one of them with: " + worst.sentence;
-    }
-    return worst;
+    return worst_of(all, "points");
 }
 
 } // namespace degs::sim

@@ -17,8 +17,8 @@ public:
 
     /// Others move `bytes` from `date` on.
     void post(double date, double bytes);
-    /// The date of the last byte of a read of `bytes` that is asked for at `date`. A read that is
-    /// older than what the memory is busy with was served before.
+    /// The date of the last byte of a read of `bytes` that is asked for at `date`. If the memory
+    /// has been busy since a later date, the read was served before that.
     double answer(double date, double bytes);
 
 private:
