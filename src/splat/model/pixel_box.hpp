@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 
 namespace degs {
 
@@ -13,7 +12,6 @@ struct PixelBox {
     bool empty() const { return x1 < x0 || y1 < y0; }
     int width() const { return std::max(x1 - x0 + 1, 0); }
     int height() const { return std::max(y1 - y0 + 1, 0); }
-    std::int64_t pixels() const { return std::int64_t{1} * width() * height(); }
     /// The part inside `bounds`.
     PixelBox within(const PixelBox& bounds) const {
         return {std::max(x0, bounds.x0), std::max(y0, bounds.y0), std::min(x1, bounds.x1),
