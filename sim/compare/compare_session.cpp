@@ -11,6 +11,7 @@
 #include "sim/compare/comparison_output.hpp"
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"
+#include "sim/simulation/warnings.hpp"
 
 namespace degs::sim {
 namespace {

@@ -152,7 +152,7 @@ void check_view(const ViewRequest& request) {
 Camera camera_of(const ViewRequest& request, const Scene& scene) {
     const std::optional<int> height =
         request.resolution.empty() ? request.height : resolution_height(request.resolution);
-    const Camera whole = resize(select_camera(scene, request.camera), request.width, height);
+    Camera whole = resize(select_camera(scene, request.camera), request.width, height);
     if (request.crop.empty()) {
         return whole;
     }

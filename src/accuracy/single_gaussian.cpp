@@ -137,8 +137,10 @@ ProjectedSplat random_window_splat(std::mt19937_64& random) {
 
 WindowCorner window_of(const ProjectedSplat& splat, const PixelBox& image) {
     const auto corner = [](double mean, int first, int last) {
-        return kAlphaWindow * index_within(std::floor(mean / kAlphaWindow), first / kAlphaWindow,
-                                           last / kAlphaWindow);
+        const int first_window = first / kAlphaWindow;
+        const int last_window = last / kAlphaWindow;
+        return kAlphaWindow *
+               index_within(std::floor(mean / kAlphaWindow), first_window, last_window);
     };
     return {corner(splat.mu_x, image.x0, image.x1), corner(splat.mu_y, image.y0, image.y1)};
 }
