@@ -279,11 +279,21 @@ std::string too_wide(const SamplingRequest& request, double reached, std::size_t
            " % of them; all tiles are simulated, and the results are exact.";
 }
 
+std::string contended(double use) {
+    return "The frame uses " + percent(use, 0) + " % of the memory's peak, and above " +
+           percent(kMostMemoryUse, 0) +
+           " % of it tiles wait for requests of others that a sample leaves out; all tiles are "
+           "simulated, and the results are exact.";
+}
+
 Verdict verdict_on(const Sampler& sampler, const FrameEstimate& estimate, SamplingFacts& facts) {
     if (sampler.groups() < kLeastGroups && sampler.more()) {
         return Verdict::More;
     }
     facts.measured = sampler.measured();
+    if (estimate.memory_use() > kMostMemoryUse) {
+        return Verdict::Contended;
+    }
     facts.reached = estimate.relative_half_width(facts.request.measure);
     return judge_sample(facts.request, ratio_of(facts.measured, facts.tiles), facts.reached,
                         sampler.more());
@@ -338,6 +348,8 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     }
     if (verdict == Verdict::Hopeless) {
         facts.refusal = too_wide(request, facts.reached, facts.measured, facts.tiles);
+    } else if (verdict == Verdict::Contended) {
+        facts.refusal = contended(estimate.memory_use());
     } else {
         const AcceleratorResult raw = sampler.end();
         check_result(raw);

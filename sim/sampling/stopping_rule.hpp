@@ -14,6 +14,9 @@ namespace degs::sim {
 inline constexpr std::size_t kLeastGroups = 8;
 /// Above this share of the tiles an exact run takes little longer, and is exact.
 inline constexpr double kMostShare = 0.5;
+/// Above this share of the memory's peak, requests of other tiles hold up those of a tile: a sample
+/// has fewer of them, and at other dates. Measured: docs/sampling.md.
+inline constexpr double kMostMemoryUse = 1.0 / 3;
 
 /// Tiles that fill a pipeline with so many tile contexts: those in flight, and those whose lists
 /// are read ahead of them.
@@ -27,9 +30,10 @@ bool can_sample(const SamplingRequest& request, int contexts, std::size_t tiles)
 std::size_t least_tiles(const SamplingRequest& request, int contexts);
 
 enum class Verdict {
-    More,     ///< go on
-    Enough,   ///< the interval is as narrow, or the share as large, as was asked for
-    Hopeless, ///< an exact run is better
+    More,      ///< go on
+    Enough,    ///< the interval is as narrow, or the share as large, as was asked for
+    Hopeless,  ///< an exact run is better
+    Contended, ///< the memory is used too much for tiles to be taken out of their order
 };
 /// `share`: of the tiles, so far; `reached`: half of the interval over the value; `more`: whether
 /// tiles are left.

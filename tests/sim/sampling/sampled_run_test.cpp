@@ -162,6 +162,22 @@ TEST(SmallRunSampledOnce, IsExactWhereTilesDependOnEachOther) {
     }
 }
 
+TEST(SmallRunSampledOnce, IsExactWhereMemoryIsContended) {
+    for (const auto& [bandwidth, sampled] : {std::pair("204.8", true), std::pair("12.8", false)}) {
+        SCOPED_TRACE(bandwidth);
+        const Folder folder;
+        const Outcome outcome = degs(small_run(
+            "gscore-64", folder / "out",
+            {"--within", "5%", "--set", std::string("memory.bandwidth_gb_per_s=") + bandwidth}));
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err.find("of the memory's peak") == std::string::npos, sampled)
+            << outcome.err;
+        const json report = report_in(folder / "out");
+        EXPECT_EQ(report.contains("sampling"), sampled);
+        EXPECT_EQ(report["dram"]["utilization"] < 1.0 / 3, sampled) << report["dram"];
+    }
+}
+
 TEST(SmallRunSampledOnce, TakesGbuWithoutItsReuseCacheOnly) {
     const std::vector<std::string> sampled{"--fidelity", "sampled:40%"};
     const Folder folder;
