@@ -50,7 +50,7 @@ void draw_scene(Dice& dice, Trial& trial) {
                                                        : dice.log_integer(1, 200);
     trial.scene = "synthetic:" + profile + ",gaussians=" + std::to_string(gaussians) +
                   ",seed=" + std::to_string(1 + dice.below(1000));
-    constexpr int kCameras = 8; // in cameras.json
+    constexpr int kCameras = 11; // in cameras.json
     trial.camera = dice.below(kCameras);
     const auto side = [&dice] {
         return static_cast<int>(dice.chance(0.6) ? dice.log_integer(32, 160)

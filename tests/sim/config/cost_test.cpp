@@ -320,6 +320,21 @@ TEST_P(SmallRunEnergy, OfTheArrayAloneLeavesOutWhatWasNotBuilt) {
     EXPECT_GT(energy["total_nj"].get<double>(), 0);
 }
 
+TEST(SmallRunEnergyOfBinning, IsLeftOutOfTheArrayAlone) {
+    for (const char* design : {"degs-64", "gscore-64", "gbu-64", "orange-o1"}) {
+        SCOPED_TRACE(design);
+        for (const bool alone : {false, true}) {
+            std::vector<std::string> more{"--set", "binning.entries=entries"};
+            if (alone) {
+                more.emplace_back("--array-only");
+            }
+            const nlohmann::json report = report_of(design, more);
+            EXPECT_TRUE(report["area"]["blocks"].contains("binning_buffer"));
+            EXPECT_EQ(report["energy"]["blocks"].contains("binning_buffer"), !alone);
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Accelerators, SmallRunEnergy,
                          testing::Values("degs-64", "degs-64-tuned", "gscore-64", "gbu-64",
                                          "gcc-64"));

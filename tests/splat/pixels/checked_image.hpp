@@ -31,6 +31,8 @@ public:
 
     void blend(int column, int row, BlendedImage& out) {
         box_ = pixels_of(work_, {column, row, column, row});
+        left_ = box_.x0 / work_.tile_size * work_.tile_size;
+        top_ = box_.y0 / work_.tile_size * work_.tile_size;
         for (int y = 0; y < work_.tile_size; ++y) {
             path_->begin_row(0, y);
         }
@@ -53,24 +55,24 @@ private:
                 task.mask = bits_between(0, std::min(kPixelsOfTest, box_.x1 + 1 - x));
                 task.x = x;
                 task.y = y;
-                task.row = static_cast<std::int16_t>(y - box_.y0);
-                task.column = static_cast<std::int16_t>(x - box_.x0);
+                task.row = static_cast<std::int16_t>(y - top_);
+                task.column = static_cast<std::int16_t>(x - left_);
                 useful += __builtin_popcount(path_->test(task).useful);
             }
         }
         return useful;
     }
     void write(Image& image) {
-        const int width = box_.x1 - box_.x0 + 1;
         for (int y = box_.y0; y <= box_.y1; ++y) {
-            path_->read_row(0, y - box_.y0, width, row_.data());
-            for (int x = 0; x < width; ++x) {
-                const std::size_t at = image.at(box_.x0 + x, y);
+            path_->read_row(0, y - top_, box_.x1 - left_ + 1, row_.data());
+            for (int x = box_.x0; x <= box_.x1; ++x) {
+                const std::size_t at = work_.camera.place_of(x, y);
+                const PixelValue& pixel = row_[x - left_];
                 for (int channel = 0; channel < 3; ++channel) {
-                    image.rgb[3 * at + channel] = static_cast<float>(row_[x].rgb[channel]);
+                    image.rgb[3 * at + channel] = static_cast<float>(pixel.rgb[channel]);
                 }
-                image.transmittance[at] = static_cast<float>(row_[x].transmittance);
-                image.fragments[at] = row_[x].updates;
+                image.transmittance[at] = static_cast<float>(pixel.transmittance);
+                image.fragments[at] = pixel.updates;
             }
         }
     }
@@ -79,7 +81,8 @@ private:
     std::unique_ptr<DataPath> path_;
     std::uint32_t base_;
     std::vector<PixelValue> row_;
-    PixelBox box_;
+    PixelBox box_;           // of the tile's pixels that are in the image
+    int left_ = 0, top_ = 0; // where the whole tile begins
 };
 
 /// What pixels that check for themselves show, without an accelerator around them. Every image of a

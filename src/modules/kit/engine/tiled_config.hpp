@@ -57,10 +57,10 @@ protected:
                            laws.pe, binning.more_pairs(), laws.share_of(laws.tile_walk.b));
         }
         if (binning.sram_bytes() != 0) {
-            bill.add_sram({"binning_buffer", "List entries that wait, and the ends of the lists."},
-                          row, binning.sram_bytes(),
-                          kReadAndWritten * binning.pairs_per_cycle * traffic.list_entry_bytes,
-                          shape...);
+            bill.add_sram(
+                {"binning_buffer", "List entries that wait, and the ends of the lists.", true}, row,
+                binning.sram_bytes(),
+                kReadAndWritten * binning.pairs_per_cycle * traffic.list_entry_bytes, shape...);
         }
     }
     PixelBuffer::TilePixels tile_pixels() const { return {tile_size_px(), pipeline.pixel_bits()}; }
