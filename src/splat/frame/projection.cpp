@@ -94,8 +94,8 @@ private:
     }
     ScreenCovariance<Scalar> linear_covariance(std::size_t index, const Scalar& x, const Scalar& y,
                                                const Scalar& z) const;
-    ScreenCovariance<Scalar> set_unscented_mean(std::size_t index, const Vector& seen,
-                                                ProjectedSplat& out) const;
+    std::optional<ScreenCovariance<Scalar>>
+    set_unscented_mean(std::size_t index, const Vector& seen, ProjectedSplat& out) const;
     Scalar set_covariance(const ScreenCovariance<Scalar>& bare, ProjectedSplat& out) const;
     Scalar limited(const Scalar& slope, const Scalar& most) const {
         const Scalar least = n_(0.0) - most;
@@ -173,7 +173,7 @@ auto ProjectorIn<Numbers>::linear_covariance(std::size_t index, const Scalar& x,
 template <class Numbers>
 auto ProjectorIn<Numbers>::set_unscented_mean(std::size_t index, const Vector& seen,
                                               ProjectedSplat& out) const
-    -> ScreenCovariance<Scalar> {
+    -> std::optional<ScreenCovariance<Scalar>> {
     const Matrix rotation = rotation_of(gaussians_.rotation(index));
     const Vector scale = vector_in(n_, gaussians_.scale(index));
     const Vector x = times(k_.right, rotation) * scale; // of the three axes, in view coordinates
@@ -181,9 +181,12 @@ auto ProjectorIn<Numbers>::set_unscented_mean(std::size_t index, const Vector& s
     const Vector z = times(k_.forward, rotation) * scale;
     const auto image =
         (*unscented_)(seen, {Vector{x.x, y.x, z.x}, Vector{x.y, y.y, z.y}, Vector{x.z, y.z, z.z}});
-    out.mu_x = value_of(image.mean.x + k_.middle_x - k_.half);
-    out.mu_y = value_of(image.mean.y + k_.middle_y - k_.half);
-    return image.covariance;
+    if (!image) {
+        return std::nullopt;
+    }
+    out.mu_x = value_of(image->mean.x + k_.middle_x - k_.half);
+    out.mu_y = value_of(image->mean.y + k_.middle_y - k_.half);
+    return image->covariance;
 }
 
 /// Dilates. Returns the factor that makes up for it, see ProjectionOptions::compensated.
@@ -221,16 +224,16 @@ Cull ProjectorIn<Numbers>::project_anywhere(std::size_t index, ProjectedSplat& o
     }
     const Scalar x = dot(k_.right, rounded);
     const Scalar y = dot(k_.down, rounded);
-    if (unscented_ && !unscented_->shows({x, y, z})) {
-        return Cull::OffScreen;
-    }
     out.depth = value_of(depth_of(x, y, z));
     if (!unscented_) {
         set_mean(x, y, z, out);
     }
-    const Scalar compensation = set_covariance(
-        unscented_ ? set_unscented_mean(index, {x, y, z}, out) : linear_covariance(index, x, y, z),
-        out);
+    const auto bare = unscented_ ? set_unscented_mean(index, {x, y, z}, out)
+                                 : std::optional(linear_covariance(index, x, y, z));
+    if (!bare) {
+        return Cull::OffScreen;
+    }
+    const Scalar compensation = set_covariance(*bare, out);
     if (is_degenerate(out)) {
         return Cull::Degenerate;
     }

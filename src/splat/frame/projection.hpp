@@ -99,11 +99,11 @@ class Projector {
 public:
     virtual ~Projector() = default;
 
-    /// Projects Gaussian `index` wherever it lands; OffScreen only means that the lens shows no
-    /// such direction (unscented). For tile modes that decide visibility by themselves. On
-    /// Cull::None `out` is complete except for its colour. Linear is EWA splatting (paper Eq. 1-3)
-    /// with the determinant formed without cancellation: det = |u x v|^2 + d (|u|^2 + |v|^2) + d^2
-    /// with u, v the rows of J R S and d the dilation.
+    /// Projects Gaussian `index` wherever it lands; OffScreen only means that no sigma
+    /// point lies near the image (unscented). For tile modes that decide visibility by themselves.
+    /// On Cull::None `out` is complete except for its colour. Linear is EWA splatting (paper Eq.
+    /// 1-3) with the determinant formed without cancellation: det = |u x v|^2 + d (|u|^2 + |v|^2) +
+    /// d^2 with u, v the rows of J R S and d the dilation.
     virtual Cull project_anywhere(std::size_t index, ProjectedSplat& out) const = 0;
 
     /// View-dependent colour max(0, 0.5 + sum c_k Y_k(dir)), per channel. None, or Degenerate if a

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "splat/frame/sigma_points.hpp"
 #include "splat/model/camera.hpp"
@@ -21,10 +22,12 @@ struct ScreenCovariance {
 /// points are projected, and mean and covariance are those of the seven. Every camera is one map of
 /// directions here, whatever its lens, and no Jacobian is needed.
 ///
-/// A sigma point that is no longer in front of the camera has no projection. Two limits take the
-/// place of the Jacobian's: a point at or before the near plane moves towards the mean up to it,
-/// and no point is farther from the view axis than `clamp` times the corner of the raster (the fold
-/// of the lens, if that is nearer) or than the mean itself; it keeps its side of the axis.
+/// A sigma point that is no longer in front of the camera has no projection, and polynomials of
+/// lenses grow beyond bounds outside of the image. Two limits take the place of the Jacobian's: a
+/// point at or before the near plane moves towards the mean up to it, and a point farther from the
+/// view axis than `clamp` times the corner of the raster (or the fold of the lens, if that is
+/// nearer) is drawn in to there, on its side of the axis. A Gaussian of which no point lies within
+/// is not shown.
 template <class Numbers>
 class Unscented {
 public:
@@ -41,33 +44,28 @@ public:
         : map_(n, lens), fx_(n(camera.fx)), fy_(n(camera.fy)), near_(n(near_plane)),
           most_slope_(n(lens.slope_at(
               clamp * glm::length(camera.raster_middle() / glm::dvec2(camera.fx, camera.fy))))),
-          fold_(n(lens.fold_slope())), distance_(n(sigma.distance())), weight_(n(sigma.weight())),
+          distance_(n(sigma.distance())), weight_(n(sigma.weight())),
           root_(n(std::sqrt(sigma.weight()))), centre_root_(n(std::sqrt(sigma.centre_weight()))),
           zero_(n(0.0)) {}
 
-    /// Whether the camera shows the direction of a point at all.
-    bool shows(const Vector& point) const {
-        const Slopes<Scalar> s{point.x / point.z, point.y / point.z};
-        return !(root_of(s.x * s.x + s.y * s.y) > fold_);
-    }
-
     /// `mean` and the standard deviations along the three axes, as vectors, in view coordinates;
-    /// the mean lies beyond the near plane.
-    Image operator()(const Vector& mean, const std::array<Vector, 3>& axes) const {
-        const Slopes<Scalar> direct{mean.x / mean.z, mean.y / mean.z};
-        const Scalar length = root_of(direct.x * direct.x + direct.y * direct.y);
-        const Scalar most = most_slope_ < length ? length : most_slope_;
-        const Slopes<Scalar> middle = pixels(direct);
+    /// the mean lies beyond the near plane. Nothing if the camera does not show the Gaussian.
+    std::optional<Image> operator()(const Vector& mean, const std::array<Vector, 3>& axes) const {
+        bool shown = false;
+        const Slopes<Scalar> middle = pixels(limited(mean, {zero_, zero_, zero_}, shown));
         std::array<Slopes<Scalar>, 6> points = {middle, middle, middle, middle, middle, middle};
         Slopes<Scalar> sum{zero_, zero_};
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Vector step = axes[i / 2] * (i % 2 == 0 ? distance_ : zero_ - distance_);
-            const Slopes<Scalar> point = pixels(limited(mean, step, most));
+            const Slopes<Scalar> point = pixels(limited(mean, step, shown));
             points[i] = {point.x - middle.x, point.y - middle.y};
             sum = {sum.x + points[i].x, sum.y + points[i].y};
         }
+        if (!shown) {
+            return std::nullopt;
+        }
         const Slopes<Scalar> offset{weight_ * sum.x, weight_ * sum.y};
-        return {{middle.x + offset.x, middle.y + offset.y}, covariance(points, offset)};
+        return Image{{middle.x + offset.x, middle.y + offset.y}, covariance(points, offset)};
     }
 
 private:
@@ -76,7 +74,8 @@ private:
         return {fx_ * bent.x, fy_ * bent.y};
     }
 
-    Slopes<Scalar> limited(const Vector& mean, const Vector& step, const Scalar& most) const {
+    /// Sets `shown` if the point lies within the limit, NaN included.
+    Slopes<Scalar> limited(const Vector& mean, const Vector& step, bool& shown) const {
         Scalar x = mean.x + step.x, y = mean.y + step.y, z = mean.z + step.z;
         if (!(z > near_)) {
             const Scalar part = (mean.z - near_) / (zero_ - step.z); // of the step
@@ -86,19 +85,24 @@ private:
         }
         const Scalar wide = magnitude(x), high = magnitude(y);
         const Scalar larger = wide < high ? high : wide;
-        if (larger > most * z) { // without a quotient, which a near plane at 0 makes infinite
-            return drawn_in({x / larger, y / larger}, most);
+        if (larger >
+            most_slope_ * z) { // without a quotient, which a near plane at 0 makes infinite
+            return drawn_in({x / larger, y / larger});
         }
         const Slopes<Scalar> slopes{x / z, y / z};
         const Scalar square = slopes.x * slopes.x + slopes.y * slopes.y;
-        return square > most * most ? drawn_in(slopes, most) : slopes;
+        if (square > most_slope_ * most_slope_) {
+            return drawn_in(slopes);
+        }
+        shown = true;
+        return slopes;
     }
 
     Scalar magnitude(const Scalar& x) const { return x < zero_ ? zero_ - x : x; }
 
-    /// The slopes of length `most` on the same side.
-    static Slopes<Scalar> drawn_in(const Slopes<Scalar>& s, const Scalar& most) {
-        const Scalar factor = most / root_of(s.x * s.x + s.y * s.y);
+    /// The slopes of the limit's length on the same side.
+    Slopes<Scalar> drawn_in(const Slopes<Scalar>& s) const {
+        const Scalar factor = most_slope_ / root_of(s.x * s.x + s.y * s.y);
         return {s.x * factor, s.y * factor};
     }
 
@@ -129,7 +133,6 @@ private:
     LensMap<Numbers> map_;
     Scalar fx_, fy_, near_;
     Scalar most_slope_; ///< of sigma points
-    Scalar fold_;
     Scalar distance_, weight_, root_, centre_root_, zero_;
 };
 
