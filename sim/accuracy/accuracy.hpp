@@ -12,6 +12,7 @@
 
 #include "sim/shell/output_folder.hpp"
 #include "sim/simulation/view.hpp"
+#include "splat/frame/rendering_rules.hpp"
 #include "splat/numbers/number_set.hpp"
 #include "splat/pixels/exponent_gemm.hpp"
 
@@ -64,8 +65,8 @@ nlohmann::ordered_json accuracy_json(const std::vector<AccuracyRow>& rows);
 struct SingleGaussianRequest {
     std::vector<NumberSet> sets;
     std::uint64_t seed = 1;
-    int gaussians = 2000;                               ///< per kind
-    double near_plane = ProjectionOptions().near_plane; ///< scene units, of the views
+    int gaussians = 2000;           ///< per kind
+    RenderingRules rules;           ///< of the views
     std::vector<ViewRequest> views; ///< whose projected Gaussians are a kind each
 };
 /// Kinds: isotropic-3 and random (single_gaussian.hpp), then those of the views, drawn from the
@@ -81,8 +82,8 @@ struct SceneAccuracyRequest {
     std::string span_ends;                ///< for every set; empty: each set's own
     int tile_size = 32;                   ///< px; outward ends and bases of spans depend on it
     std::optional<ExponentGemm> gemm;     ///< exponents are products of matrices
-    double near_plane = ProjectionOptions().near_plane; ///< scene units
-    bool error_images = true;                           ///< write test - reference as EXR
+    RenderingRules rules;                 ///< of the views
+    bool error_images = true;             ///< write test - reference as EXR
 };
 /// One row per scene, resolution and set. Throws InputError.
 std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,

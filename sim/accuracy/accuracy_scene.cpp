@@ -137,8 +137,6 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
         if (cameras.empty()) {
             cameras.push_back(loaded.camera);
         }
-        RenderingRules rules;
-        rules.near = request.near_plane;
         for (const Camera& camera : cameras) {
             Frame frame;
             frame.row.scene = loaded.scene.name;
@@ -148,7 +146,7 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
             frame.cloud = &loaded.scene.cloud;
             frame.workload =
                 make_frame_workload(loaded.scene.cloud, camera, request.tile_size, TileMode::Exact,
-                                    rules.options(loaded.scene.traits.antialiased));
+                                    request.rules.options(loaded.scene.traits.antialiased));
             print_warnings(near_plane_warnings({&frame.workload}));
             frame.reference = make_reference(frame.workload).image;
             measure_frame(request, frame, out, rows);

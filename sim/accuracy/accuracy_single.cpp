@@ -77,8 +77,7 @@ void measure_view_splats(const SingleGaussianRequest& request,
                          std::vector<AccuracyRow>& rows) {
     const View loaded = load_view(view);
     const Camera& camera = loaded.camera;
-    ProjectionOptions options;
-    options.near_plane = request.near_plane;
+    const ProjectionOptions options = request.rules.options(false);
     const FrameWorkload workload =
         make_frame_workload(loaded.scene.cloud, camera, kAlphaWindow, TileMode::Exact, options);
     print_warnings(near_plane_warnings({&workload}));

@@ -30,7 +30,7 @@ struct AccuracyOptions {
     std::vector<std::string> resolutions;
     std::string span_ends;
     int tile_size = 32;
-    double near_plane = ProjectionOptions().near_plane;
+    RenderingRules rules; ///< of the views
     std::string products;
     bool no_error_images = false;
     bool single_gaussian = false;
@@ -67,7 +67,7 @@ SingleGaussianRequest single_request(const AccuracyOptions& options) {
     }
     request.seed = options.seed;
     request.gaussians = options.splats;
-    request.near_plane = options.near_plane;
+    request.rules = options.rules;
     const std::vector<std::string> own{""}; // the camera's size
     for (const ViewRequest& view : views_of(options)) {
         for (const std::string& resolution :
@@ -105,7 +105,7 @@ SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     request.resolutions = options.resolutions;
     request.span_ends = options.span_ends;
     request.tile_size = options.tile_size;
-    request.near_plane = options.near_plane;
+    request.rules = options.rules;
     if (!options.products.empty()) {
         request.gemm =
             half_precision_gemm(options.products == "tile" ? GemmOrigin::Tile : GemmOrigin::Image);
@@ -260,7 +260,8 @@ void add_scene_options(CLI::App& command, AccuracyOptions& options) {
                     "px; outward span ends and the places where q_n starts depend on it")
         ->check(CLI::Range(1, 128))
         ->capture_default_str();
-    add_near_option(command, options.near_plane);
+    add_near_option(command, options.rules.near);
+    add_projection_options(command, options.rules);
     command
         .add_option(
             "--products", options.products,

@@ -53,7 +53,7 @@ std::uint64_t most_bytes() {
 template <class Stream, class Value>
 void pass_camera(Stream& stream, Value& camera) {
     stream.pass(camera.id, camera.name, camera.width, camera.height, camera.fx, camera.fy,
-                camera.shift, camera.origin, camera.position, camera.camera_to_world);
+                camera.shift, camera.origin, camera.position, camera.camera_to_world, camera.lens);
 }
 
 template <class Stream, class Value>
@@ -81,7 +81,8 @@ void put_view(BinaryWriter& out, const Camera& camera, const ProjectionOptions& 
               const std::string& format) {
     pass_camera(out, camera);
     out.pass(options.near_plane, options.dilation, options.jacobian_clamp, options.alpha_min,
-             options.cut, options.order, options.compensated, format);
+             options.cut, options.order, options.compensated, options.rule, options.lens,
+             options.sigma, format);
 }
 
 std::string frame_key(const std::string& scene, const Camera& camera, int tile_size, TileMode mode,

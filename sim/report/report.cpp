@@ -8,6 +8,7 @@
 
 #include "base/ratio.hpp"
 #include "config/config_document.hpp"
+#include "scene/cameras/lens_terms.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/report/losses.hpp"
 #include "sim/report/what_if_words.hpp"
@@ -245,6 +246,11 @@ ordered_json camera_json(const Camera& camera) {
         json["cx"] = point.x;
         json["cy"] = point.y;
         json["raster_origin"] = {camera.origin.x, camera.origin.y};
+    }
+    if (!camera.lens.is_pinhole()) {
+        const LensTerms lens = terms_of(camera.lens);
+        json["camera_model"] = lens.model;
+        json["distortion"] = lens.terms;
     }
     return json;
 }

@@ -103,6 +103,7 @@ void add_rule_options(CLI::App& command, RenderingRules& rules) {
             "whether opacities make up for the low-pass filter; scene: as its file says")
         ->check(CLI::IsMember(antialiasing_names()))
         ->default_str("scene");
+    add_projection_options(command, rules);
     command.add_option("--low-pass", rules.low_pass, "px^2 added to both variances of a splat")
         ->check(CLI::Range(0.0, 10.0))
         ->capture_default_str();

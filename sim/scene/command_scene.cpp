@@ -97,6 +97,7 @@ void add_info(CLI::App& scene) {
         ->type_name("FILE.png");
     command->add_flag("--json", options->json, "print JSON");
     add_near_option(*command, options->rules.near);
+    add_projection_options(*command, options->rules);
     command->callback([options] { run_info(*options); });
 }
 

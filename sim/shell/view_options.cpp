@@ -2,7 +2,6 @@
 #include "sim/shell/view_options.hpp"
 
 #include "degs/error.hpp"
-#include "splat/frame/rendering_rules.hpp"
 
 namespace degs::sim {
 namespace {
@@ -47,6 +46,30 @@ CLI::Option* add_near_option(CLI::App& command, double& near) {
                     "near plane, scene units; Gaussians at or before it are not drawn")
         ->check(CLI::Range(0.0, kFarthestNearPlane))
         ->capture_default_str();
+}
+
+void add_projection_options(CLI::App& command, RenderingRules& rules) {
+    command
+        .add_option_function<std::string>(
+            "--projection",
+            [&rules](const std::string& name) {
+                rules.projection = name == name_of(ProjectionRule::Unscented)
+                                       ? ProjectionRule::Unscented
+                                       : ProjectionRule::Linear;
+            },
+            "linear: by the Jacobian of a pinhole; unscented: by seven points through the lens")
+        ->check(CLI::IsMember(projection_rule_names()))
+        ->default_str(name_of(rules.projection));
+    command
+        .add_option_function<std::string>(
+            "--lens",
+            [&rules](const std::string& name) {
+                rules.lens =
+                    name == name_of(LensRule::Pinhole) ? LensRule::Pinhole : LensRule::Camera;
+            },
+            "camera: as its file says; pinhole: lens distortion is left out")
+        ->check(CLI::IsMember(lens_rule_names()))
+        ->default_str(name_of(rules.lens));
 }
 
 CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning) {

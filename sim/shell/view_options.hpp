@@ -10,6 +10,7 @@
 #include <CLI/App.hpp>
 
 #include "sim/simulation/view.hpp"
+#include "splat/frame/rendering_rules.hpp"
 
 namespace degs::sim {
 
@@ -33,6 +34,9 @@ CLI::Option* add_memory_option(CLI::App& command, std::string& file);
 
 /// Adds --near, the near plane of commands without a configuration.
 CLI::Option* add_near_option(CLI::App& command, double& near);
+
+/// Adds --projection and --lens, of commands without a configuration.
+void add_projection_options(CLI::App& command, RenderingRules& rules);
 
 /// Adds --out, the folder for results.
 CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning);

@@ -76,7 +76,7 @@ bool is_sound(const Camera& camera) {
     bool good = camera.width >= 1 && camera.width <= kMostCameraSide && camera.height >= 1 &&
                 camera.height <= kMostCameraSide && camera.fx > 0 && std::isfinite(camera.fx) &&
                 camera.fy > 0 && std::isfinite(camera.fy) && is_finite(camera.position) &&
-                camera.has_sound_raster();
+                camera.has_sound_raster() && camera.lens.is_sound();
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 3; ++row) {
             const double wanted = row == column ? 1 : 0;

@@ -4,7 +4,9 @@
 namespace degs::sim {
 
 RuleKind rule_kind(const ProjectionOptions& options) {
-    return {options.order, options.compensated, options.dilation, options.cut, options.near_plane};
+    return {options.order,      options.compensated, options.dilation, options.cut,
+            options.near_plane, options.rule,        options.lens,     options.sigma.alpha,
+            options.sigma.beta, options.sigma.kappa};
 }
 
 FrameKind frame_kind(const AcceleratorConfig& config, const SceneTraits& traits) {

@@ -10,7 +10,8 @@
 namespace degs::sim {
 
 /// The rules that a projection and its reference are drawn by.
-using RuleKind = std::tuple<SplatOrder, bool, double, double, double>;
+using RuleKind = std::tuple<SplatOrder, bool, double, double, double, ProjectionRule, LensRule,
+                            double, double, double>;
 RuleKind rule_kind(const ProjectionOptions& options);
 
 /// The rules, the formats of the projection (empty for those of the reference, whose frames the

@@ -65,14 +65,27 @@ void refuse_with_riscv(const SocOptions& options) {
     }
 }
 
+/// The view, which has no lens: the registers of an accelerator hold none.
+View loaded_view(const SocOptions& options, const RunConfig& config) {
+    View view = load_view(options.view);
+    print_warnings(view.scene.notes);
+    const bool ignored = config.accelerator().data_path().rules.lens == LensRule::Pinhole;
+    if (!ignored && !view.camera.lens.is_pinhole()) {
+        throw InputError("Camera " + std::to_string(view.camera.id) +
+                         " has a lens with distortion (" + view.camera.lens.name() +
+                         "), for which an accelerator on a platform has no registers; "
+                         "pipeline.rules.lens: pinhole leaves it out.");
+    }
+    return view;
+}
+
 void boot(const SocOptions& options) {
     refuse_with_riscv(options);
     BootRequest request;
     request.config = soc_config(options, request.memory);
     request.firmware = options.firmware.empty() ? "built in" : options.firmware;
     request.program = load_firmware(options.firmware);
-    const View view = load_view(options.view);
-    print_warnings(view.scene.notes);
+    const View view = loaded_view(options, request.config);
     const OutputFolder out(options.out, {"soc.json", "soc.svg"});
     const BootResult result = run_boot(request, view);
     out.replace([&] { out.write_json("soc.json", boot_json(request, view, result)); });
@@ -101,8 +114,7 @@ void run(const SocOptions& options) {
         options.pattern == "stream" ? CpuTraffic::Pattern::Stream : CpuTraffic::Pattern::Random;
     request.reads_per_write = options.reads_per_write;
     request.refresh_hz = options.refresh_hz;
-    const View view = load_view(options.view);
-    print_warnings(view.scene.notes);
+    const View view = loaded_view(options, request.config);
     const OutputFolder out(options.out, {"soc.json", "soc.svg"});
     request.timeline = timeline_of(options.trace);
     const SocResult result = run_soc(request, view);

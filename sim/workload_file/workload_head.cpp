@@ -72,6 +72,49 @@ void pass_rules(Options& options, Pass&& pass) {
     pass("cut", options.cut);
 }
 
+template <class Sigma, class Pass>
+void pass_sigma(Sigma& sigma, Pass&& pass) {
+    pass("alpha", sigma.alpha);
+    pass("beta", sigma.beta);
+    pass("kappa", sigma.kappa);
+}
+
+/// Names of the kinds of lenses in the head.
+const std::vector<const char*>& lens_words() {
+    static const std::vector<const char*> words{"pinhole", "opencv", "fisheye"};
+    return words;
+}
+
+/// The coefficients of a lens with their names in the head.
+template <class Coefficients, class Pass>
+void pass_lens(Coefficients& lens, Pass&& pass) {
+    const char* const radial[] = {"radial1", "radial2", "radial3", "radial4"};
+    for (std::size_t i = 0; i < lens.radial.size(); ++i) {
+        pass(radial[i], lens.radial[i]);
+    }
+    const char* const denominator[] = {"denominator1", "denominator2", "denominator3"};
+    for (std::size_t i = 0; i < lens.denominator.size(); ++i) {
+        pass(denominator[i], lens.denominator[i]);
+    }
+    pass("p1", lens.tangential[0]);
+    pass("p2", lens.tangential[1]);
+}
+
+ordered_json json_of(const LensCoefficients& lens) {
+    ordered_json json{{"kind", lens_words()[static_cast<std::size_t>(lens.kind)]}};
+    pass_lens(lens, [&](const char* name, const double& value) { json[name] = value; });
+    return json;
+}
+
+Lens lens_in(const HeadReader& in) {
+    LensCoefficients lens;
+    lens.kind = static_cast<LensCoefficients::Kind>(in.text("kind", lens_words()));
+    pass_lens(lens, [&](const char* name, double& value) {
+        value = in.real(name, -kMostValue, kMostValue);
+    });
+    return Lens(lens);
+}
+
 ordered_json json_of(const SceneFacts& scene) {
     ordered_json json{{"name", scene.name},
                       {"gaussians", scene.gaussians},
@@ -104,6 +147,9 @@ ordered_json json_of(const Camera& camera) {
                           {"shift_x", camera.shift.x},
                           {"shift_y", camera.shift.y}};
     }
+    if (!camera.lens.is_pinhole()) {
+        json["lens"] = json_of(camera.lens.coefficients());
+    }
     return json;
 }
 
@@ -113,6 +159,12 @@ ordered_json json_of(const PackedProjection& projection) {
     pass_rules(options, [&](const char* name, const double& value) { json[name] = value; });
     json["order"] = name_of(options.order);
     json["compensated"] = options.compensated;
+    if (options.rule != ProjectionRule::Linear || options.lens != LensRule::Camera) {
+        json["rule"] = name_of(options.rule);
+        json["lens"] = name_of(options.lens);
+        pass_sigma(options.sigma,
+                   [&](const char* name, const double& value) { json["sigma"][name] = value; });
+    }
     pass_formats(options.numbers, [&](const char* name, const NumberFormat& format) {
         json["formats"][name] = format.name();
     });
@@ -165,6 +217,9 @@ Camera camera_in(const HeadReader& in) {
         camera.shift = {raster.real("shift_x", -kMostRasterSide, kMostRasterSide),
                         raster.real("shift_y", -kMostRasterSide, kMostRasterSide)};
     }
+    if (in.has("lens")) { // not of pinholes
+        camera.lens = lens_in(in.part("lens"));
+    }
     camera.position = in.vector("position");
     const std::vector<HeadReader> axes = in.list("axes");
     in.check("axes", axes.size() == 3, "has " + std::to_string(axes.size()) + " of 3 axes");
@@ -202,6 +257,14 @@ PackedProjection projection_in(const HeadReader& in, const SceneFacts& scene) {
     options.order =
         in.text("order", splat_order_names()) == 0 ? SplatOrder::Depth : SplatOrder::Distance;
     options.compensated = in.flag("compensated");
+    if (in.has("rule")) { // not of linear projections through the camera's lens
+        options.rule = static_cast<ProjectionRule>(in.text("rule", projection_rule_names()));
+        options.lens = static_cast<LensRule>(in.text("lens", lens_rule_names()));
+        const HeadReader sigma = in.part("sigma");
+        pass_sigma(options.sigma, [&](const char* name, double& value) {
+            value = sigma.real(name, -kMostValue, kMostValue);
+        });
+    }
     const HeadReader formats = in.part("formats");
     pass_formats(options.numbers,
                  [&](const char* name, NumberFormat& format) { format = formats.format(name); });
@@ -257,7 +320,7 @@ std::uint64_t length_of(const std::vector<std::uint64_t>& blocks) {
 bool same_projection(const ProjectionOptions& a, const ProjectionOptions& b) {
     const auto rules = [](const ProjectionOptions& o) {
         return std::tie(o.near_plane, o.dilation, o.jacobian_clamp, o.alpha_min, o.cut, o.order,
-                        o.compensated);
+                        o.compensated, o.rule, o.lens, o.sigma);
     };
     return rules(a) == rules(b) && a.numbers == b.numbers;
 }
@@ -273,6 +336,10 @@ std::string frame_words(const ProjectionOptions& options, int tile_size, TileMod
                  (options.compensated ? "on" : "off") + ", low_pass " +
                  decimal_text(options.dilation) + ", cut " + decimal_text(options.cut) + ", near " +
                  decimal_text(options.near_plane);
+    }
+    if (options.rule != usual.rule || options.lens != usual.lens) {
+        words += std::string(", projection ") + name_of(options.rule) + ", lens " +
+                 name_of(options.lens);
     }
     return words;
 }

@@ -170,7 +170,7 @@ TileCycles Clock::end(const CoarseTile& tile) {
     cycles.walked = walked;
     UnitCycles& busy = cycles.busy; // first of the cluster of this view, then of all of them
     busy[Analytic::kProjection] =
-        walked * config.projection.cycles_per_gaussian / config.projection.units;
+        walked * config.projection.project_cycles(frame_.projection.rule) / config.projection.units;
     busy[Analytic::kColour] =
         walked * std::max(1.0 * config.colour.cycles_per_colour / config.colour.units,
                           passes / config.colour.keys_per_cycle);

@@ -50,9 +50,10 @@ cost::BillOfMaterials Config::bill() const {
 std::vector<cost::Activity> Config::activity(const Work& work, bool array_only) const {
     std::vector<cost::Activity> activity;
     if (!array_only) {
-        activity = {{"grouping", work.means},
-                    {"projection", work.shapes * projection.cycles_per_gaussian},
-                    {"colour", work.coloured * colour.cycles_per_colour}};
+        activity = {
+            {"grouping", work.means},
+            {"projection", work.shapes * projection.project_cycles(pipeline.rules.projection)},
+            {"colour", work.coloured * colour.cycles_per_colour}};
     }
     const double records = // through one ring each
         kRingsOfShapes * work.shapes + kRingsOfColours * work.coloured + work.records_fetched;

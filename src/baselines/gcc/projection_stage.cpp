@@ -16,6 +16,9 @@ void ProjectionStage::Config::describe(ConfigVisitor& visitor) {
                     "groups between two steps of Stages II and III [assumed]");
     visitor.integer("cycles_per_gaussian", cycles_per_gaussian, 1, 1024,
                     "cycles per Gaussian and unit, so that bandwidth limits [assumed]");
+    visitor.integer("unscented_passes", unscented_passes, 1, 1024,
+                    "of a Gaussian through a unit with pipeline.rules.projection: unscented, as "
+                    "its 666 operations to the 167 of linear [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 4096,
                     "cycles; depth of the projection pipeline [assumed]");
 }
@@ -151,7 +154,9 @@ void ProjectionStage::project() {
     for (ViewsLeft left(job_, granted_); left.any();) {
         const SplatChunk group = fetched_.get(projector_);
         left.take(group);
-        const Cycle busy = ceil_div(group.count, units) * config_.cycles_per_gaussian;
+        const FrameWorkload& frame = job_.frame_of(job_.tiles[group.tile]);
+        const Cycle busy =
+            ceil_div(group.count, units) * config_.project_cycles(frame.projection.rule);
         projector_.work(busy, stats_.busy);
         stats_.shapes += group.count;
         out->put(projector_, group);

@@ -28,8 +28,13 @@ public:
         int group = 256;             ///< Gaussians per group
         int groups_ahead = 1;        ///< between two steps
         int cycles_per_gaussian = 1; ///< initiation interval of a unit
+        int unscented_passes = 4;    ///< of a Gaussian, by the ratio of operations
         int latency_cycles = 32;     ///< projection pipeline
         void describe(ConfigVisitor& visitor);
+        /// Cycles that a unit takes to project a Gaussian.
+        int project_cycles(ProjectionRule rule) const {
+            return cycles_per_gaussian * (rule == ProjectionRule::Unscented ? unscented_passes : 1);
+        }
     };
     struct Stats {
         Cycle busy = 0;

@@ -10,8 +10,9 @@
 namespace degs {
 
 /// cameras.json of the original 3DGS code: an array of {width, height, position, rotation, fx, fy}
-/// with optional id and img_name. `rotation` holds the rows of the camera-to-world matrix. Reading
-/// takes at most 12 bytes of memory per byte of the file, the cameras included.
+/// with optional id, img_name, camera_model and distortion. `rotation` holds the rows of the
+/// camera-to-world matrix. Reading takes at most 12 bytes of memory per byte of the file, the
+/// cameras included.
 CameraFile read_cameras_json(const std::string& path);
 
 /// transforms.json of nerfstudio and instant-ngp: intrinsics, which a frame may have of its own,
@@ -30,8 +31,8 @@ struct ColmapFiles {
 ColmapFiles colmap_in(const std::string& folder);
 
 /// The views of a COLMAP model in the order of their names, as the original 3DGS code sorts them.
-/// Lenses are reduced to their pinhole, with a note; fisheye models are refused. Reading takes at
-/// most 12 bytes of memory per byte of the two files.
+/// Lenses that OpenCV does not have are refused. Reading takes at most 12 bytes of memory per byte
+/// of the two files.
 CameraFile read_colmap(const ColmapFiles& files);
 
 } // namespace degs

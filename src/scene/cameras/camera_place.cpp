@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/cameras/camera_place.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "scene/files/input_file.hpp"
 
@@ -11,13 +9,6 @@ namespace degs {
 namespace {
 
 constexpr double kOrthonormality = 1e-3; // largest deviation of an entry of R^T R from identity
-constexpr double kWorthANote = 0.01;     // px
-
-std::string pixels_text(double pixels) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g px", pixels);
-    return text;
-}
 
 } // namespace
 
@@ -66,25 +57,6 @@ void set_principal_point(const CameraPlace& place, double cx, double cy, Camera&
                    "at most " +
                    std::to_string(kMostRasterSide) + " pixels to a side.");
     }
-}
-
-double corner_distortion(const LensDistortion& lens, const Camera& camera, double cx, double cy) {
-    const double x = std::max(std::abs(cx), std::abs(camera.width - cx)) / camera.fx;
-    const double y = std::max(std::abs(cy), std::abs(camera.height - cy)) / camera.fy;
-    const double r2 = x * x + y * y;
-    const auto cubic = [r2](const double* k) { return 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[2])); };
-    const double radial = (cubic(lens.k) + r2 * r2 * r2 * r2 * lens.r8) / cubic(lens.k + 3) - 1;
-    const double dx = x * radial + 2 * lens.p[0] * x * y + lens.p[1] * (r2 + 2 * x * x);
-    const double dy = y * radial + 2 * lens.p[1] * x * y + lens.p[0] * (r2 + 2 * y * y);
-    return std::hypot(camera.fx * dx, camera.fy * dy);
-}
-
-std::string lens_note(const std::string& path, double distortion) {
-    // Phrased so that a distortion that is not a number is mentioned, too.
-    return distortion < kWorthANote
-               ? ""
-               : "The cameras of " + path + " have lens distortion of up to " +
-                     pixels_text(distortion) + " in the corners, which is left out.";
 }
 
 } // namespace degs

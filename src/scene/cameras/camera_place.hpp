@@ -50,18 +50,4 @@ void check_rotation(const CameraPlace& place, const std::string& name, const glm
 /// of more than kMostRasterSide.
 void set_principal_point(const CameraPlace& place, double cx, double cy, Camera& camera);
 
-/// Radial and tangential distortion as OpenCV has it; zero if unused.
-struct LensDistortion {
-    double k[6] = {0, 0, 0, 0, 0, 0}; ///< k1 to k3 of the numerator, k4 to k6 of the denominator
-    double p[2] = {0, 0};
-    double r8 = 0; ///< of the eighth power of the radius, nerfstudio's k4
-};
-/// px by which a lens moves the corner of the image that lies the farthest from the principal point
-/// `cx`, `cy` (px).
-double corner_distortion(const LensDistortion& lens, const Camera& camera, double cx, double cy);
-
-/// A full sentence for a lens distortion that is left out, px in the corner of an image; empty if
-/// it is less than a hundredth of a pixel.
-std::string lens_note(const std::string& path, double distortion);
-
 } // namespace degs

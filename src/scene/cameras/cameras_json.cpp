@@ -7,6 +7,8 @@
 #include "scene/cameras/camera_formats.hpp"
 #include "scene/cameras/json_entries.hpp"
 #include "scene/cameras/json_entry.hpp"
+#include "scene/cameras/lens_terms.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {
@@ -19,9 +21,28 @@ const JsonEntries& json_cameras() {
         "camera",
         "width, height, position, rotation, fx and fy",
         {"id", "img_name", "width", "height", "fx", "fy", "position", "rotation", "cx", "cy",
-         "generated"},
+         "generated", "camera_model", "distortion"},
         13}; // a rotation is an array of 3 arrays of 3 numbers
     return entries;
+}
+
+Lens lens_of_json(const CameraPlace& place, const JsonEntry& entry) {
+    const std::string model = entry.has("camera_model") ? entry.text("camera_model") : "PINHOLE";
+    if (model == "PINHOLE") {
+        return {};
+    }
+    const std::vector<double> terms = entry.numbers("distortion");
+    const std::size_t count = terms.size();
+    const bool fisheye = model == "OPENCV_FISHEYE";
+    if (!(fisheye || model == "OPENCV" ? count == 4
+          : model == "FULL_OPENCV"     ? count == 8 || count == 9
+                                       : false)) {
+        place.fail("has a camera_model " + in_quotes(model) + " with a distortion of " +
+                   std::to_string(count) +
+                   " numbers; allowed are PINHOLE, OPENCV (k1 k2 p1 p2), FULL_OPENCV (and k3 k4 k5 "
+                   "k6, and a ninth for r^8) and OPENCV_FISHEYE (k1 k2 k3 k4).");
+    }
+    return fisheye ? fisheye_lens(terms) : open_cv_lens(terms);
 }
 
 Camera camera_of_json(const CameraPlace& place, std::size_t index, const nlohmann::json& json) {
@@ -37,6 +58,7 @@ Camera camera_of_json(const CameraPlace& place, std::size_t index, const nlohman
     camera.fy = entry.focal_length("fy");
     set_principal_point(place, entry.has("cx") ? entry.number("cx") : camera.width / 2.0,
                         entry.has("cy") ? entry.number("cy") : camera.height / 2.0, camera);
+    camera.lens = lens_of_json(place, entry);
     camera.position = entry.vector("position");
     camera.camera_to_world = entry.rows("rotation");
     check_rotation(place, "rotation", camera.camera_to_world);
@@ -47,15 +69,20 @@ Camera camera_of_json(const CameraPlace& place, std::size_t index, const nlohman
 
 CameraFile read_cameras_json(const std::string& path) {
     CameraFile file;
+    LensNote lenses;
     read_json_entries(path, json_cameras(), [&](std::size_t index, const nlohmann::json& json) {
         const CameraPlace place(path, entry_name(json_cameras(), index));
         file.cameras.push_back(camera_of_json(place, index, json));
+        lenses.add(file.cameras.back());
         file.generated =
             file.generated || (json.contains("generated") && json["generated"] == true);
     });
     if (file.generated) {
         file.notes.push_back("The view in " + path +
                              " was generated for a scene that has no cameras.");
+    }
+    if (std::string note = lenses.text(path); !note.empty()) {
+        file.notes.push_back(std::move(note));
     }
     return file;
 }

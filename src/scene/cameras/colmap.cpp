@@ -4,6 +4,7 @@
 
 #include "scene/cameras/camera_formats.hpp"
 #include "scene/cameras/colmap_files.hpp"
+#include "scene/cameras/lens_terms.hpp"
 #include "scene/files/input_file.hpp"
 
 namespace degs {
@@ -25,11 +26,10 @@ ColmapFiles colmap_in(const std::string& folder) {
 }
 
 CameraFile read_colmap(const ColmapFiles& files) {
-    double distortion = 0;
     CameraFile result;
     result.of_original_data = true;
-    ColmapCameras cameras = files.binary ? read_colmap_cameras_binary(files.cameras, distortion)
-                                         : read_colmap_cameras_text(files.cameras, distortion);
+    ColmapCameras cameras = files.binary ? read_colmap_cameras_binary(files.cameras)
+                                         : read_colmap_cameras_text(files.cameras);
     cameras.sort(files.cameras);
     result.cameras = files.binary ? read_colmap_images_binary(files.images, cameras)
                                   : read_colmap_images_text(files.images, cameras);
@@ -44,7 +44,11 @@ CameraFile read_colmap(const ColmapFiles& files) {
                       "two images have the name " + in_quotes(result.cameras[i].name) + ".");
         }
     }
-    if (std::string note = lens_note(files.cameras, distortion); !note.empty()) {
+    LensNote lenses;
+    for (const Camera& camera : result.cameras) {
+        lenses.add(camera);
+    }
+    if (std::string note = lenses.text(files.cameras); !note.empty()) {
         result.notes.push_back(std::move(note));
     }
     return result;

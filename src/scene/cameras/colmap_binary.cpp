@@ -84,7 +84,7 @@ private:
 
 } // namespace
 
-ColmapCameras read_colmap_cameras_binary(const std::string& path, double& distortion) {
+ColmapCameras read_colmap_cameras_binary(const std::string& path) {
     ColmapReader reader(path);
     const std::uint64_t count = reader.records("cameras", kLeastCameraBytes);
     ColmapCameras cameras;
@@ -98,7 +98,7 @@ ColmapCameras read_colmap_cameras_binary(const std::string& path, double& distor
         for (double& value : parameters) {
             value = reader.get<double>(place);
         }
-        cameras.add(colmap_camera(place, id, model, width, height, parameters, distortion));
+        cameras.add(colmap_camera(place, id, model, width, height, parameters));
     }
     reader.expect_end();
     return cameras;

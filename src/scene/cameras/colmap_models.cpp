@@ -8,35 +8,37 @@
 #include <limits>
 #include <utility>
 
+#include "scene/cameras/lens_terms.hpp"
 #include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {
 
-using Lens = ColmapModel::Lens;
+using Family = ColmapModel::Family;
 
 constexpr std::array<ColmapModel, 12> kModels{{
-    {0, "SIMPLE_PINHOLE", 3, Lens::Pinhole},
-    {1, "PINHOLE", 4, Lens::Pinhole},
-    {2, "SIMPLE_RADIAL", 4, Lens::Pinhole},
-    {3, "RADIAL", 5, Lens::Pinhole},
-    {4, "OPENCV", 8, Lens::Pinhole},
-    {5, "OPENCV_FISHEYE", 8, Lens::Fisheye},
-    {6, "FULL_OPENCV", 12, Lens::Pinhole},
-    {7, "FOV", 5, Lens::Fisheye},
-    {8, "SIMPLE_RADIAL_FISHEYE", 4, Lens::Fisheye},
-    {9, "RADIAL_FISHEYE", 5, Lens::Fisheye},
-    {10, "THIN_PRISM_FISHEYE", 12, Lens::Fisheye},
-    {11, "RAD_TAN_THIN_PRISM_FISHEYE", 16, Lens::Fisheye},
+    {0, "SIMPLE_PINHOLE", 3, 1, Family::OpenCv},
+    {1, "PINHOLE", 4, 2, Family::OpenCv},
+    {2, "SIMPLE_RADIAL", 4, 1, Family::OpenCv},
+    {3, "RADIAL", 5, 1, Family::OpenCv},
+    {4, "OPENCV", 8, 2, Family::OpenCv},
+    {5, "OPENCV_FISHEYE", 8, 2, Family::Fisheye},
+    {6, "FULL_OPENCV", 12, 2, Family::OpenCv},
+    {7, "FOV", 5, 2, Family::Other},
+    {8, "SIMPLE_RADIAL_FISHEYE", 4, 1, Family::Fisheye},
+    {9, "RADIAL_FISHEYE", 5, 1, Family::Fisheye},
+    {10, "THIN_PRISM_FISHEYE", 12, 2, Family::Other},
+    {11, "RAD_TAN_THIN_PRISM_FISHEYE", 16, 2, Family::Other},
 }};
 
 const ColmapModel& usable(const CameraPlace& place, const ColmapModel* model,
                           const std::string& text) {
-    if (model == nullptr || model->lens != Lens::Pinhole) {
+    if (model == nullptr || model->family == Family::Other) {
         place.fail("has the camera model " + text +
                    (model == nullptr ? ", which is not known" : "") +
-                   "; allowed are SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV and "
-                   "FULL_OPENCV, and COLMAP's image_undistorter makes PINHOLE of the others.");
+                   "; allowed are SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, "
+                   "FULL_OPENCV, OPENCV_FISHEYE, SIMPLE_RADIAL_FISHEYE and RADIAL_FISHEYE, and "
+                   "COLMAP's image_undistorter makes PINHOLE of the others.");
     }
     return *model;
 }
@@ -78,16 +80,14 @@ const ColmapModel& colmap_model(const CameraPlace& place, const std::string& nam
 }
 
 ColmapCamera colmap_camera(const CameraPlace& place, std::uint32_t id, const ColmapModel& model,
-                           double width, double height, const std::vector<double>& parameters,
-                           double& distortion) {
+                           double width, double height, const std::vector<double>& parameters) {
     for (const double value : parameters) {
         if (!std::isfinite(value)) {
             place.fail("has a parameter of its camera model that is not finite.");
         }
     }
-    // All models but these three have one focal length for both axes.
-    const bool two = model.number == 1 || model.number == 4 || model.number == 6;
-    const int centre = two ? 2 : 1;
+    const bool two = model.focal_lengths == 2;
+    const int centre = model.focal_lengths;
     ColmapCamera made{id, {}};
     Camera& camera = made.camera;
     camera.width = checked_side(place, "width", width, number_text(width));
@@ -96,16 +96,9 @@ ColmapCamera colmap_camera(const CameraPlace& place, std::uint32_t id, const Col
         checked_focal_length(place, two ? "fx" : "f", parameters[0], number_text(parameters[0]));
     camera.fy = two ? checked_focal_length(place, "fy", parameters[1], number_text(parameters[1]))
                     : camera.fx;
-    const double cx = parameters[centre];
-    const double cy = parameters[centre + 1];
-    LensDistortion lens;
-    const double* const terms = parameters.data() + centre + 2;
-    const int count = model.parameters - centre - 2;
-    for (int i = 0; i < count; ++i) { // k1 k2 p1 p2 k3 k4 k5 k6
-        (i == 2 || i == 3 ? lens.p[i - 2] : lens.k[i < 2 ? i : i - 2]) = terms[i];
-    }
-    set_principal_point(place, cx, cy, camera);
-    distortion = std::max(distortion, corner_distortion(lens, camera, cx, cy));
+    set_principal_point(place, parameters[centre], parameters[centre + 1], camera);
+    const std::vector<double> terms(parameters.begin() + centre + 2, parameters.end());
+    camera.lens = model.family == Family::Fisheye ? fisheye_lens(terms) : open_cv_lens(terms);
     return made;
 }
 

@@ -15,24 +15,23 @@ struct ColmapModel {
     int number = 0;
     const char* name = "";
     int parameters = 0;
-    enum class Lens { Pinhole, Fisheye, Other } lens = Lens::Pinhole;
+    int focal_lengths = 1; ///< 1: one for both axes
+    enum class Family { OpenCv, Fisheye, Other } family = Family::OpenCv;
 };
 
-/// Throws InputError for a model that is unknown or is no pinhole with OpenCV's distortion.
+/// Throws InputError for a model that is unknown or has no lens of OpenCV.
 const ColmapModel& colmap_model(const CameraPlace& place, std::int64_t number);
 const ColmapModel& colmap_model(const CameraPlace& place, const std::string& name);
 
-/// Size and focal lengths of a camera; its pose is that of its images.
+/// Size, focal lengths and lens of a camera; its pose is that of its images.
 struct ColmapCamera {
     std::uint32_t id = 0;
     Camera camera;
 };
 
-/// Checks and reduces to a pinhole; what is left out goes to `distortion`, px in a corner. `width`
-/// and `height` are px, `parameters` has as many as the model takes.
+/// Checks. `width` and `height` are px, `parameters` has as many as the model takes.
 ColmapCamera colmap_camera(const CameraPlace& place, std::uint32_t id, const ColmapModel& model,
-                           double width, double height, const std::vector<double>& parameters,
-                           double& distortion);
+                           double width, double height, const std::vector<double>& parameters);
 
 /// World to camera, as the files have it.
 struct ColmapPose {

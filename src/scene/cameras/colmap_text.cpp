@@ -137,7 +137,7 @@ private:
 
 } // namespace
 
-ColmapCameras read_colmap_cameras_text(const std::string& path, double& distortion) {
+ColmapCameras read_colmap_cameras_text(const std::string& path) {
     ColmapLines lines(path);
     ColmapCameras cameras;
     for (std::string line; lines.next(line);) {
@@ -152,7 +152,7 @@ ColmapCameras read_colmap_cameras_text(const std::string& path, double& distorti
             parameters[i] = words.real("parameter " + std::to_string(i));
         }
         words.expect_end();
-        cameras.add(colmap_camera(place, id, model, width, height, parameters, distortion));
+        cameras.add(colmap_camera(place, id, model, width, height, parameters));
     }
     return cameras;
 }

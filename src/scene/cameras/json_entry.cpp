@@ -76,6 +76,18 @@ glm::dvec3 JsonEntry::vector(const char* key) const {
     return vector_in(at(key), key);
 }
 
+std::vector<double> JsonEntry::numbers(const char* key) const {
+    const Json& list = at(key);
+    if (!list.is_array()) {
+        place_.fail("has a " + std::string(key) + " that is not an array of numbers.");
+    }
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        numbers.push_back(number_in(list[i], key + ("[" + std::to_string(i) + "]")));
+    }
+    return numbers;
+}
+
 glm::dmat3 JsonEntry::rows(const char* key) const {
     const Json& rows = at(key);
     if (!rows.is_array() || rows.size() != 3) {

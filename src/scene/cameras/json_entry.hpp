@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,8 @@ public:
     double focal_length(const char* key) const;
     std::string text(const char* key) const;
     glm::dvec3 vector(const char* key) const;
+    /// Finite ones, as many as there are.
+    std::vector<double> numbers(const char* key) const;
     /// 3 rows of 3 numbers.
     glm::dmat3 rows(const char* key) const;
     /// Up to 4 rows of 4 numbers, at least 3; a fourth one must be 0 0 0 1.

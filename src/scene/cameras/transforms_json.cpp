@@ -8,6 +8,7 @@
 #include "scene/cameras/camera_formats.hpp"
 #include "scene/cameras/json_entries.hpp"
 #include "scene/cameras/json_entry.hpp"
+#include "scene/cameras/lens_terms.hpp"
 #include "scene/files/input_file.hpp"
 
 namespace degs {
@@ -65,11 +66,13 @@ const JsonEntries& transforms_frames() {
 struct Intrinsics {
     std::optional<int> w, h;
     std::optional<double> fl_x, fl_y, cx, cy, angle_x, angle_y;
-    LensDistortion lens;
+    bool fisheye = false;
+    double k[4] = {0, 0, 0, 0}, p[2] = {0, 0};
 
     void read(const CameraPlace& place, const JsonEntry& entry);
-    /// Fills size and focal lengths of the camera; `distortion`, px in a corner, is left out.
-    void apply(const CameraPlace& place, Camera& camera, double& distortion) const;
+    void read_lens(const CameraPlace& place, const JsonEntry& entry);
+    /// Fills size, focal lengths and lens of the camera.
+    void apply(const CameraPlace& place, Camera& camera) const;
 };
 
 double angle(const CameraPlace& place, const JsonEntry& entry, const char* key) {
@@ -81,28 +84,33 @@ double angle(const CameraPlace& place, const JsonEntry& entry, const char* key) 
     return value;
 }
 
-void refuse_other_models(const CameraPlace& place, const JsonEntry& entry) {
+void Intrinsics::read_lens(const CameraPlace& place, const JsonEntry& entry) {
     if (entry.has("camera_model")) {
         const std::string model = entry.text("camera_model");
-        bool known = false;
+        bool known = model == "OPENCV_FISHEYE";
         for (const char* good :
              {"PINHOLE", "SIMPLE_PINHOLE", "OPENCV", "SIMPLE_RADIAL", "RADIAL", "PERSPECTIVE"}) {
             known = known || model == good;
         }
         if (!known) {
             place.fail("has a camera_model " + in_quotes(model) +
-                       ", which no pinhole stands for; allowed are PINHOLE, SIMPLE_PINHOLE, "
-                       "OPENCV, SIMPLE_RADIAL, RADIAL and PERSPECTIVE.");
+                       ", which is not known; allowed are PINHOLE, SIMPLE_PINHOLE, OPENCV, "
+                       "SIMPLE_RADIAL, RADIAL, PERSPECTIVE and OPENCV_FISHEYE.");
         }
+        fisheye = model == "OPENCV_FISHEYE";
     }
-    if (entry.has("is_fisheye") && entry.at("is_fisheye") == true) {
-        place.fail(
-            "is of a fisheye lens, which no pinhole stands for; undistorted images are needed.");
+    if (entry.has("is_fisheye")) {
+        fisheye = fisheye || entry.at("is_fisheye") == true;
+    }
+    const std::pair<const char*, double*> terms[] = {{"k1", k},     {"k2", k + 1}, {"k3", k + 2},
+                                                     {"k4", k + 3}, {"p1", p},     {"p2", p + 1}};
+    for (const auto& [key, value] : terms) {
+        *value = entry.has(key) ? entry.number(key) : *value;
     }
 }
 
 void Intrinsics::read(const CameraPlace& place, const JsonEntry& entry) {
-    refuse_other_models(place, entry);
+    read_lens(place, entry);
     for (const auto& [key, side] : {std::pair("w", &w), std::pair("h", &h)}) {
         if (entry.has(key)) {
             *side = entry.side(key);
@@ -127,12 +135,6 @@ void Intrinsics::read(const CameraPlace& place, const JsonEntry& entry) {
         angle_y = angle(place, entry, "camera_angle_y");
         fl_y = entry.has("fl_y") ? fl_y : std::nullopt;
     }
-    const std::pair<const char*, double*> terms[] = {{"k1", lens.k},     {"k2", lens.k + 1},
-                                                     {"k3", lens.k + 2}, {"k4", &lens.r8},
-                                                     {"p1", lens.p},     {"p2", lens.p + 1}};
-    for (const auto& [key, value] : terms) {
-        *value = entry.has(key) ? entry.number(key) : *value;
-    }
 }
 
 double focal_of_angle(const CameraPlace& place, const char* key, int side, double angle) {
@@ -141,7 +143,7 @@ double focal_of_angle(const CameraPlace& place, const char* key, int side, doubl
                                 std::to_string(focal));
 }
 
-void Intrinsics::apply(const CameraPlace& place, Camera& camera, double& distortion) const {
+void Intrinsics::apply(const CameraPlace& place, Camera& camera) const {
     const bool by_angle = angle_x && !fl_x;
     if (!by_angle && (!w || !h)) {
         place.fail("has no image size; w and h are needed, in the frame or in the file.");
@@ -156,10 +158,11 @@ void Intrinsics::apply(const CameraPlace& place, Camera& camera, double& distort
     camera.fy = fl_y      ? *fl_y
                 : angle_y ? focal_of_angle(place, "camera_angle_y", camera.height, *angle_y)
                           : camera.fx; // square pixels
-    const double x = cx.value_or(camera.width / 2.0);
-    const double y = cy.value_or(camera.height / 2.0);
-    set_principal_point(place, x, y, camera);
-    distortion = std::max(distortion, corner_distortion(lens, camera, x, y));
+    set_principal_point(place, cx.value_or(camera.width / 2.0), cy.value_or(camera.height / 2.0),
+                        camera);
+    // Without counterparts: a fisheye has no tangential terms, and k4 is of r^8 otherwise.
+    camera.lens = fisheye ? fisheye_lens({k[0], k[1], k[2], k[3]})
+                          : open_cv_lens({k[0], k[1], p[0], p[1], k[2], 0, 0, 0, k[3]});
 }
 
 /// What was done to the poses of the original data: p_file = applied_scale (applied_transform p).
@@ -219,7 +222,7 @@ CameraFile read_transforms_json(const std::string& path) {
     const glm::dmat4 to_original = applied.inverse();
     CameraFile file;
     file.of_original_data = true;
-    double distortion = 0;
+    LensNote lenses;
     bool assumed_size = false;
     read_json_entries(
         path, transforms_frames(), [&](std::size_t index, const nlohmann::json& json) {
@@ -232,7 +235,8 @@ CameraFile read_transforms_json(const std::string& path) {
             camera.name = entry.has("file_path")
                               ? std::filesystem::path(entry.text("file_path")).stem().string()
                               : place.entry();
-            own.apply(place, camera, distortion);
+            own.apply(place, camera);
+            lenses.add(camera);
             assumed_size = assumed_size || !own.w || !own.h;
             set_pose(place, entry.affine("transform_matrix"), to_original, camera);
             file.cameras.push_back(std::move(camera));
@@ -245,7 +249,7 @@ CameraFile read_transforms_json(const std::string& path) {
     if (std::string note = applied.note(path); !note.empty()) {
         file.notes.push_back(std::move(note));
     }
-    if (std::string note = lens_note(path, distortion); !note.empty()) {
+    if (std::string note = lenses.text(path); !note.empty()) {
         file.notes.push_back(std::move(note));
     }
     return file;

@@ -34,6 +34,7 @@ void check(const GaussianCloud& cloud, const Camera& camera, int tile_size,
         throw InputError("Near plane " + std::to_string(options.near_plane) +
                          " is not possible; it must be 0 or a positive distance in scene units.");
     }
+    check_projection(camera, options);
     if (cloud.size() > std::numeric_limits<std::uint32_t>::max()) {
         throw InputError("The scene has " + std::to_string(cloud.size()) +
                          " Gaussians; at most 4294967295 are supported.");

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 #include <type_traits>
 
+#include "degs/error.hpp"
 #include "splat/frame/pixel_index.hpp"
 #include "splat/frame/stored_gaussians.hpp"
+#include "splat/frame/unscented.hpp"
 #include "splat/model/spherical_harmonics.hpp"
 
 namespace degs {
@@ -63,7 +67,12 @@ public:
           n_(std::move(numbers)), k_(n_, camera, options), alpha_min_(options.alpha_min),
           cut_(options.cut < kNoCut ? value_of(n_(options.cut))
                                     : std::numeric_limits<double>::infinity()),
-          order_(options.order), compensated_(options.compensated) {}
+          order_(options.order), compensated_(options.compensated) {
+        if (options.rule == ProjectionRule::Unscented) {
+            unscented_.emplace(n_, camera, options.lens == LensRule::Camera ? camera.lens : Lens(),
+                               options.sigma, options.near_plane, options.jacobian_clamp);
+        }
+    }
 
     Cull project_anywhere(std::size_t index, ProjectedSplat& out) const override;
     Cull shade(std::size_t index, ProjectedSplat& out) const override;
@@ -83,8 +92,11 @@ private:
         out.q_cut_off = std::max(0.0, out.q_threshold - cut_);
         out.q_threshold = std::min(out.q_threshold, cut_);
     }
-    Scalar set_covariance(std::size_t index, const Scalar& x, const Scalar& y, const Scalar& z,
-                          ProjectedSplat& out) const;
+    ScreenCovariance<Scalar> linear_covariance(std::size_t index, const Scalar& x, const Scalar& y,
+                                               const Scalar& z) const;
+    std::optional<ScreenCovariance<Scalar>>
+    set_unscented_mean(std::size_t index, const Vector& seen, ProjectedSplat& out) const;
+    Scalar set_covariance(const ScreenCovariance<Scalar>& bare, ProjectedSplat& out) const;
     Scalar limited(const Scalar& slope, const Scalar& most) const {
         const Scalar least = n_(0.0) - most;
         return slope < least ? least : most < slope ? most : slope;
@@ -101,6 +113,7 @@ private:
     double alpha_min_, cut_;
     SplatOrder order_;
     bool compensated_;
+    std::optional<Unscented<Numbers>> unscented_; ///< none: linear
 };
 
 /// Rotation matrix of a quaternion in slot order w, x, y, z. Dividing by |q|^2 makes it orthonormal
@@ -139,13 +152,12 @@ void ProjectorIn<Numbers>::set_mean(const Scalar& x, const Scalar& y, const Scal
     out.mu_y = value_of(k_.fy * y / z + k_.middle_y - k_.half);
 }
 
-/// The dilated covariance from the rows u, v of J Rv R S (2x3). The determinant is Cauchy-Binet's
-/// sum of non-negative terms; a c - b^2 loses all digits for needles. The slopes x/z and y/z are
-/// limited for the Jacobian only: the linearisation is useless far outside. Returns the factor that
-/// makes up for the dilation, see ProjectionOptions::compensated.
+/// From the rows u, v of J Rv R S (2x3). The determinant is Cauchy-Binet's sum of non-negative
+/// terms; a c - b^2 loses all digits for needles. The slopes x/z and y/z are limited for the
+/// Jacobian only: the linearisation is useless far outside.
 template <class Numbers>
-auto ProjectorIn<Numbers>::set_covariance(std::size_t index, const Scalar& x, const Scalar& y,
-                                          const Scalar& z, ProjectedSplat& out) const -> Scalar {
+auto ProjectorIn<Numbers>::linear_covariance(std::size_t index, const Scalar& x, const Scalar& y,
+                                             const Scalar& z) const -> ScreenCovariance<Scalar> {
     const Scalar slope_x = limited(x / z, k_.most_slope_x);
     const Scalar slope_y = limited(y / z, k_.most_slope_y);
     const Vector row_x = (k_.right - k_.forward * slope_x) * (k_.fx / z); // rows of J Rv
@@ -154,20 +166,43 @@ auto ProjectorIn<Numbers>::set_covariance(std::size_t index, const Scalar& x, co
     const Vector scale = vector_in(n_, gaussians_.scale(index));
     const Vector u = times(row_x, rotation) * scale;
     const Vector v = times(row_y, rotation) * scale;
-    const Scalar d = k_.dilation;
-    const Scalar a0 = dot(u, u);
-    const Scalar c0 = dot(v, v);
     const Vector normal = cross(u, v);
-    out.cov_a = value_of(a0 + d);
-    out.cov_b = value_of(dot(u, v));
-    out.cov_c = value_of(c0 + d);
-    const Scalar before = dot(normal, normal);
-    const Scalar after = before + d * (a0 + c0) + d * d;
+    return {dot(u, u), dot(u, v), dot(v, v), dot(normal, normal)};
+}
+
+template <class Numbers>
+auto ProjectorIn<Numbers>::set_unscented_mean(std::size_t index, const Vector& seen,
+                                              ProjectedSplat& out) const
+    -> std::optional<ScreenCovariance<Scalar>> {
+    const Matrix rotation = rotation_of(gaussians_.rotation(index));
+    const Vector scale = vector_in(n_, gaussians_.scale(index));
+    const Vector x = times(k_.right, rotation) * scale; // of the three axes, in view coordinates
+    const Vector y = times(k_.down, rotation) * scale;
+    const Vector z = times(k_.forward, rotation) * scale;
+    const auto image =
+        (*unscented_)(seen, {Vector{x.x, y.x, z.x}, Vector{x.y, y.y, z.y}, Vector{x.z, y.z, z.z}});
+    if (!image) {
+        return std::nullopt;
+    }
+    out.mu_x = value_of(image->mean.x + k_.middle_x - k_.half);
+    out.mu_y = value_of(image->mean.y + k_.middle_y - k_.half);
+    return image->covariance;
+}
+
+/// Dilates. Returns the factor that makes up for it, see ProjectionOptions::compensated.
+template <class Numbers>
+auto ProjectorIn<Numbers>::set_covariance(const ScreenCovariance<Scalar>& bare,
+                                          ProjectedSplat& out) const -> Scalar {
+    const Scalar d = k_.dilation;
+    out.cov_a = value_of(bare.a + d);
+    out.cov_b = value_of(bare.b);
+    out.cov_c = value_of(bare.c + d);
+    const Scalar after = bare.det + d * (bare.a + bare.c) + d * d;
     out.det = value_of(after);
     if (!compensated_) {
         return k_.one;
     }
-    const Scalar ratio = before / after;
+    const Scalar ratio = bare.det / after;
     return root_of(ratio < k_.least_compensation ? k_.least_compensation : ratio);
 }
 
@@ -190,8 +225,15 @@ Cull ProjectorIn<Numbers>::project_anywhere(std::size_t index, ProjectedSplat& o
     const Scalar x = dot(k_.right, rounded);
     const Scalar y = dot(k_.down, rounded);
     out.depth = value_of(depth_of(x, y, z));
-    set_mean(x, y, z, out);
-    const Scalar compensation = set_covariance(index, x, y, z, out);
+    if (!unscented_) {
+        set_mean(x, y, z, out);
+    }
+    const auto bare = unscented_ ? set_unscented_mean(index, {x, y, z}, out)
+                                 : std::optional(linear_covariance(index, x, y, z));
+    if (!bare) {
+        return Cull::OffScreen;
+    }
+    const Scalar compensation = set_covariance(*bare, out);
     if (is_degenerate(out)) {
         return Cull::Degenerate;
     }
@@ -228,8 +270,28 @@ Cull ProjectorIn<Numbers>::shade(std::size_t index, ProjectedSplat& out) const {
 
 } // namespace
 
+void check_projection(const Camera& camera, const ProjectionOptions& options) {
+    if (options.rule == ProjectionRule::Unscented) {
+        if (!options.sigma.is_sound()) {
+            throw InputError("The sigma points of the unscented projection have a negative weight "
+                             "or no place; alpha^2 (3 + kappa) must be above 0, and 2 - 3 / "
+                             "(alpha^2 (3 + kappa)) - alpha^2 + beta at least 0.");
+        }
+        return;
+    }
+    if (options.lens == LensRule::Camera && !camera.lens.is_pinhole()) {
+        throw InputError("Camera " + std::to_string(camera.id) + " has a lens with distortion (" +
+                         camera.lens.name() +
+                         "), which the linear projection cannot draw; "
+                         "pipeline.rules.projection: unscented draws it, and pipeline.rules.lens: "
+                         "pinhole leaves it out (--projection and --lens of commands without a "
+                         "configuration).");
+    }
+}
+
 std::unique_ptr<Projector> make_projector(const GaussianCloud& cloud, const Camera& camera,
                                           const ProjectionOptions& options) {
+    check_projection(camera, options);
     using Double = MachineNumbers<double>;
     using Single = MachineNumbers<float>;
     if (options.numbers.format.is_fp64()) {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "splat/frame/pixel_rules.hpp"
+#include "splat/frame/sigma_points.hpp"
 #include "splat/model/camera.hpp"
 #include "splat/model/gaussian.hpp"
 #include "splat/model/pixel_box.hpp"
@@ -17,6 +18,13 @@ namespace degs {
 /// distance of the mean to the camera (KHR_gaussian_splatting).
 enum class SplatOrder { Depth, Distance };
 
+/// How Gaussians become ellipses: by the Jacobian of a pinhole (EWA splatting, the original 3DGS
+/// rasteriser), or by sigma points that go through the camera's lens (3DGUT), see Unscented.
+enum class ProjectionRule { Linear, Unscented };
+
+/// Whose lens projects: the camera's, or none, which leaves distortion out.
+enum class LensRule { Camera, Pinhole };
+
 /// A cut at this q or beyond is none: alpha is below 1/255 from q = 2 ln 255 = 11.08 on.
 constexpr double kNoCut = 12;
 
@@ -24,11 +32,15 @@ constexpr double kNoCut = 12;
 struct ProjectionOptions {
     double near_plane = 0.2; ///< scene units; splats at or before it are dropped
     double dilation = 0.3;   ///< px^2, low-pass filter added to both variances
-    /// Times tan(fov/2) of the camera's raster; limits x/z and y/z in the Jacobian only.
+    /// Linear: times tan(fov/2) of the camera's raster; limits x/z and y/z in the Jacobian only.
+    /// Unscented: times the radius of the raster's corner; limits sigma points only.
     double jacobian_clamp = 1.3;
     double alpha_min = 1.0 / 255.0; ///< support threshold (paper Eq. 7)
     double cut = kNoCut;            ///< largest q at which a splat is drawn, the limit included
     SplatOrder order = SplatOrder::Depth;
+    ProjectionRule rule = ProjectionRule::Linear;
+    LensRule lens = LensRule::Camera;
+    SigmaPoints sigma; ///< of an unscented projection
     /// Opacities are multiplied by sqrt(max(kLeastCompensation, det before / det after dilation)),
     /// so that splats thinner than a pixel keep their weight when the low-pass filter widens them
     /// (Mip-Splatting; option `antialiasing` of the original code).
@@ -87,10 +99,11 @@ class Projector {
 public:
     virtual ~Projector() = default;
 
-    /// Projects Gaussian `index` wherever it lands; never returns OffScreen. For tile modes that
-    /// decide visibility by themselves. On Cull::None `out` is complete except for its colour. EWA
-    /// splatting (paper Eq. 1-3) with the determinant formed without cancellation: det = |u x v|^2
-    /// + d (|u|^2 + |v|^2) + d^2 with u, v the rows of J R S and d the dilation.
+    /// Projects Gaussian `index` wherever it lands; OffScreen only means that no sigma
+    /// point lies near the image (unscented). For tile modes that decide visibility by themselves.
+    /// On Cull::None `out` is complete except for its colour. Linear is EWA splatting (paper Eq.
+    /// 1-3) with the determinant formed without cancellation: det = |u x v|^2 + d (|u|^2 + |v|^2) +
+    /// d^2 with u, v the rows of J R S and d the dilation.
     virtual Cull project_anywhere(std::size_t index, ProjectedSplat& out) const = 0;
 
     /// View-dependent colour max(0, 0.5 + sum c_k Y_k(dir)), per channel. None, or Degenerate if a
@@ -109,7 +122,11 @@ private:
     PixelBox image_;
 };
 
-/// The cloud outlives the projector.
+/// Throws InputError, which names the keys, for a distorted lens that is to be projected linearly,
+/// and for sigma points of negative weight.
+void check_projection(const Camera& camera, const ProjectionOptions& options);
+
+/// The cloud outlives the projector. Throws as check_projection() does.
 std::unique_ptr<Projector> make_projector(const GaussianCloud& cloud, const Camera& camera,
                                           const ProjectionOptions& options);
 

@@ -25,6 +25,24 @@ const char* name_of(SplatOrder order) {
     return splat_order_names().at(static_cast<std::size_t>(order));
 }
 
+const std::vector<const char*>& projection_rule_names() {
+    static const std::vector<const char*> names{"linear", "unscented"};
+    return names;
+}
+
+const char* name_of(ProjectionRule rule) {
+    return projection_rule_names().at(static_cast<std::size_t>(rule));
+}
+
+const std::vector<const char*>& lens_rule_names() {
+    static const std::vector<const char*> names{"camera", "pinhole"};
+    return names;
+}
+
+const char* name_of(LensRule rule) {
+    return lens_rule_names().at(static_cast<std::size_t>(rule));
+}
+
 const std::vector<const char*>& antialiasing_names() {
     static const std::vector<const char*> names{"scene", "off", "on"};
     return names;
@@ -51,6 +69,28 @@ void RenderingRules::describe(ConfigVisitor& visitor) {
     visitor.choice("antialiasing", antialiasing, antialiasing_names(),
                    "opacity times sqrt(det before / det after the low-pass filter); scene: if the "
                    "file says that it was trained so");
+    visitor.choice("projection", projection, projection_rule_names(),
+                   "linear: by the Jacobian of a pinhole (reference code, paper Eq. 1-3); "
+                   "unscented: by seven sigma points through the camera's lens (3DGUT)");
+    visitor.choice("lens", lens, lens_rule_names(),
+                   "camera: as its file says, which takes the unscented projection if it distorts; "
+                   "pinhole: distortion is left out");
+    visitor.real("sigma_alpha", sigma.alpha, 1e-3, 10,
+                 "spread of the sigma points; 1: sqrt(3) standard deviations (3DGUT)");
+    visitor.real("sigma_beta", sigma.beta, 0, 100,
+                 "what is known of the distribution; 2: that it is a Gaussian (3DGUT)");
+    visitor.real("sigma_kappa", sigma.kappa, -2, 100, "second spread of the points; 0: 3DGUT");
+    visitor.require(sigma.is_sound(),
+                    {"sigma_beta",
+                     "must be at least alpha^2 - 2 + 3 / (alpha^2 (3 + kappa)), so that no weight "
+                     "of the covariance is negative",
+                     "",
+                     {"sigma_alpha", "sigma_kappa"}});
+    if (projection == ProjectionRule::Linear) {
+        for (const char* key : {"sigma_alpha", "sigma_beta", "sigma_kappa"}) {
+            visitor.unused(key, "projection", "projection is linear");
+        }
+    }
     visitor.real("low_pass", low_pass, 0, 10,
                  "px^2 added to both variances of a splat; files of Mip-Splatting and Brush are "
                  "trained with 0.1");
@@ -69,6 +109,9 @@ ProjectionOptions RenderingRules::options(bool antialiased,
     options.cut = cut;
     options.near_plane = near;
     options.order = order;
+    options.rule = projection;
+    options.lens = lens;
+    options.sigma = sigma;
     options.compensated =
         antialiasing == Antialiasing::On || (antialiasing == Antialiasing::Scene && antialiased);
     options.numbers = numbers;

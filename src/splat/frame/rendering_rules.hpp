@@ -23,6 +23,9 @@ enum class RuleSet { Inria, Khr };
 struct RenderingRules {
     RuleSet preset = RuleSet::Inria; ///< the set that the others started from
     SplatOrder order = SplatOrder::Depth;
+    ProjectionRule projection = ProjectionRule::Linear;
+    LensRule lens = LensRule::Camera;
+    SigmaPoints sigma; ///< of the unscented projection
     Antialiasing antialiasing = Antialiasing::Scene;
     double low_pass = ProjectionOptions().dilation; ///< px^2, see ProjectionOptions::dilation
     double cut = ProjectionOptions().cut;           ///< of q, see ProjectionOptions::cut
@@ -45,6 +48,12 @@ const std::vector<const char*>& rule_set_names();
 /// "depth", "distance", in the order of SplatOrder.
 const std::vector<const char*>& splat_order_names();
 const char* name_of(SplatOrder order);
+/// "linear", "unscented", in the order of ProjectionRule.
+const std::vector<const char*>& projection_rule_names();
+const char* name_of(ProjectionRule rule);
+/// "camera", "pinhole", in the order of LensRule.
+const std::vector<const char*>& lens_rule_names();
+const char* name_of(LensRule rule);
 /// "scene", "off", "on", in the order of Antialiasing.
 const std::vector<const char*>& antialiasing_names();
 

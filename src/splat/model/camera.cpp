@@ -26,8 +26,26 @@ bool lies_in(double seen, double z, double focal, double before, double side) {
 
 } // namespace
 
+std::optional<glm::dvec2> Camera::landing_of(const glm::dvec3& point) const {
+    const glm::dvec3 seen = glm::transpose(camera_to_world) * (point - position);
+    if (!(seen.z > 0)) {
+        return std::nullopt;
+    }
+    const glm::dvec2 slopes(seen.x / seen.z, seen.y / seen.z);
+    if (!lens.is_pinhole() && !(glm::length(slopes) <= lens.fold_slope())) {
+        return std::nullopt;
+    }
+    return raster_middle() + glm::dvec2(fx, fy) * lens.bent(slopes);
+}
+
 std::optional<double> Camera::seen_depth(const glm::dvec3& point) const {
     const glm::dvec3 seen = glm::transpose(camera_to_world) * (point - position);
+    if (!lens.is_pinhole()) {
+        const std::optional<glm::dvec2> landing = landing_of(point);
+        const glm::dvec2 at = landing.value_or(glm::dvec2(-1.0)) - glm::dvec2(origin);
+        const bool there = landing && at.x >= 0 && at.x <= width && at.y >= 0 && at.y <= height;
+        return there ? std::optional<double>(seen.z) : std::nullopt;
+    }
     const glm::dvec2 middle = principal_point();
     const bool inside = seen.z > 0 && lies_in(seen.x, seen.z, fx, middle.x, width) &&
                         lies_in(seen.y, seen.z, fy, middle.y, height);

@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include "splat/model/lens.hpp"
 #include "splat/model/pixel_box.hpp"
 
 namespace degs {
@@ -14,8 +15,8 @@ namespace degs {
 /// The longest side of a raster, px.
 constexpr int kMostRasterSide = 1 << 20;
 
-/// A pinhole camera in the convention of the original 3DGS code. The view axes are x right, y down
-/// and z forward, and a pixel is sampled at its centre.
+/// A camera in the convention of the original 3DGS code, a pinhole unless it has a lens. The view
+/// axes are x right, y down and z forward, and a pixel is sampled at its centre.
 ///
 /// The image is a window of a raster whose middle is the principal point. Whatever is projected,
 /// listed and drawn has coordinates of the raster, so that a window shows what the whole raster
@@ -28,6 +29,7 @@ struct Camera {
     int height = 0;                  ///< pixels
     double fx = 0;                   ///< focal length, pixels of `width`
     double fy = 0;                   ///< focal length, pixels of `height`
+    Lens lens;                       ///< of slopes, so that it is the same at every size
     glm::dvec2 shift{0.0};           ///< of the principal point from the image's middle, px
     glm::ivec2 origin{0};            ///< the image's first pixel in the raster, >= 0
     glm::dvec3 position{0.0};        ///< camera centre in world space
@@ -36,6 +38,9 @@ struct Camera {
     /// View z of a point in front of the camera that projects into the image, edges included; none
     /// of any other point.
     std::optional<double> seen_depth(const glm::dvec3& point) const;
+    /// Where a point lands in the raster, px from its upper left corner, in double; none if it is
+    /// not in front of the camera, or beyond the fold of the lens.
+    std::optional<glm::dvec2> landing_of(const glm::dvec3& point) const;
     std::uint64_t pixels() const { return std::uint64_t{1} * width * height; }
 
     /// In the raster, px from its upper left corner: half the raster's sides.

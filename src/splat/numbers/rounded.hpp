@@ -90,5 +90,14 @@ inline float log_of(float x) {
 inline Rounded log_of(Rounded x) {
     return {std::log(x.value()), x.numbers()};
 }
+inline double arctangent_of(double x) {
+    return std::atan(x);
+}
+inline float arctangent_of(float x) {
+    return static_cast<float>(std::atan(static_cast<double>(x)));
+}
+inline Rounded arctangent_of(Rounded x) {
+    return {std::atan(x.value()), x.numbers()};
+}
 
 } // namespace degs

@@ -95,7 +95,7 @@ TEST(Colmap, PrefersBinaryFilesAndLooksIntoSparse) {
     EXPECT_EQ(read_camera_file(folder.path("data/sparse/0/images.txt")).cameras.at(0).name, "text");
 }
 
-TEST(Colmap, ReducesLensesToTheirPinholeAndSaysWhatIsLost) {
+TEST(Colmap, SaysWhatLensesDistort) {
     const ColmapFolder folder;
     const auto notes_of = [&](const ColmapLens& lens) {
         return read_camera_file(

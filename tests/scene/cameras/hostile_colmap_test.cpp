@@ -41,8 +41,8 @@ std::string with_image(const std::function<void(ColmapImage&)>& change) {
 
 TEST(HostileColmap, EveryMistakeOfACameraHasItsSentence) {
     const std::pair<std::function<void(ColmapLens&)>, const char*> cases[] = {
-        {[](ColmapLens& c) { c.model = 5; },
-         "camera 0 has the camera model OPENCV_FISHEYE; allowed are SIMPLE_PINHOLE"},
+        {[](ColmapLens& c) { c.model = 7; },
+         "camera 0 has the camera model FOV; allowed are SIMPLE_PINHOLE"},
         {[](ColmapLens& c) { c.model = 11; }, "RAD_TAN_THIN_PRISM_FISHEYE"},
         {[](ColmapLens& c) { c.model = 99; }, "number 99, which is not known"},
         {[](ColmapLens& c) { c.model = -1; }, "number -1, which is not known"},

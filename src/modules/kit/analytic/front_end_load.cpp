@@ -81,7 +81,8 @@ PreparationCycles FrontEndLoad::preparation(const FrameWorkload& frame,
         (traffic.sh == ShReads::All ? gaussians * sh : std::min(visible * alone, gaussians * sh)) +
         visible * traffic.splat_bytes + lists.bytes;
     result.written = visible * traffic.splat_bytes + lists.bytes;
-    const double project = gaussians * projection.cycles_per_gaussian / projection.count;
+    const double each = projection.project_cycles(frame.projection.rule);
+    const double project = gaussians * each / projection.count;
     const double shade = visible * projection.cycles_per_colour / projection.count;
     const double bin =
         std::max({std::ceil(gaussians / chunk), pairs / binning.pairs_per_cycle, lists.cycles});
@@ -93,7 +94,7 @@ PreparationCycles FrontEndLoad::preparation(const FrameWorkload& frame,
     result.busy[kProjectionUnits] = std::max(project, shade);
     result.busy[memory_unit] = moved;
     result.time = std::max({project, shade, bin, write, moved}) + projection.latency_cycles +
-                  3 * memory.latency + chunk * projection.cycles_per_gaussian;
+                  3 * memory.latency + chunk * each;
     return result;
 }
 

@@ -17,6 +17,9 @@ void ProjectionUnit::Config::describe(ConfigVisitor& visitor) {
                     "projected chunks of a unit that wait for the binner [assumed]");
     visitor.integer("cycles_per_gaussian", cycles_per_gaussian, 1, 1024,
                     "cycles per Gaussian and unit, so that bandwidth limits [assumed]");
+    visitor.integer("unscented_passes", unscented_passes, 1, 1024,
+                    "of a Gaussian through a unit with pipeline.rules.projection: unscented, as "
+                    "its 666 operations to the 167 of linear [assumed]");
     visitor.integer("cycles_per_colour", cycles_per_colour, 1, 1024,
                     "cycles per visible Gaussian for its SH colour [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 4096,
@@ -86,7 +89,7 @@ void ProjectionUnit::project() {
             result.visible = frame.visible_among(in.first + in.count) - result.first_visible;
             result.tile_pairs = job_.pairs_before(f, result.first_visible + result.visible) -
                                 job_.pairs_before(f, result.first_visible);
-            const Cycle busy = in.count * config_.cycles_per_gaussian;
+            const Cycle busy = in.count * config_.project_cycles(frame.projection.rule);
             projector_.work(busy, stats_.project_busy);
             stats_.gaussians += in.count;
             projected_.reserve(projector_);

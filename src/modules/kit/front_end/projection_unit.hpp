@@ -26,9 +26,14 @@ public:
         int chunks_in_flight = 4;    ///< geometry requests outstanding per unit
         int chunks_ahead = 4;        ///< of the binner
         int cycles_per_gaussian = 1; ///< projection initiation interval
+        int unscented_passes = 4;    ///< of a Gaussian, by the ratio of operations
         int cycles_per_colour = 1;   ///< SH evaluation initiation interval
         int latency_cycles = 32;     ///< projection pipeline
         void describe(ConfigVisitor& visitor);
+        /// Cycles that a unit takes to project a Gaussian.
+        int project_cycles(ProjectionRule rule) const {
+            return cycles_per_gaussian * (rule == ProjectionRule::Unscented ? unscented_passes : 1);
+        }
     };
     struct Stats {
         Cycle project_busy = 0, shade_busy = 0;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lenses as camera files spell them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/cameras/camera_place.hpp"
+#include "splat/model/lens.hpp"
+
+namespace degs {
+
+/// A camera model and its distortion: OPENCV with k1 k2 p1 p2, FULL_OPENCV with these and k3 k4 k5
+/// k6 (and the factor of r^8, if a file of nerfstudio has one), or OPENCV_FISHEYE with k1 k2 k3 k4.
+struct LensTerms {
+    std::string model;
+    std::vector<double> terms;
+};
+
+/// The terms of a lens that is not a pinhole.
+LensTerms terms_of(const Lens& lens);
+
+/// k1 k2 p1 p2 k3 k4 k5 k6 and the factor of r^8, or as many of the first as there are.
+Lens open_cv_lens(const std::vector<double>& terms);
+/// k1 k2 k3 k4, or as many of the first as there are.
+Lens fisheye_lens(const std::vector<double>& terms);
+
+/// What a file of cameras has of lenses, for its note.
+class LensNote {
+public:
+    /// Counts the lens of a camera whose size and principal point are set.
+    void add(const Camera& camera);
+    /// A full sentence for lenses that move a corner of their image by a hundredth of a pixel or
+    /// more, or that fold before it; empty if there is none.
+    std::string text(const std::string& path) const;
+
+private:
+    double distortion_ = 0; ///< px in a corner, the largest
+    double fold_ = 90;      ///< degrees from the view axis, the least that lies before a corner
+};
+
+} // namespace degs
