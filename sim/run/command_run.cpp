@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs run: one frame, or a camera path, on one accelerator.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -218,6 +219,22 @@ std::vector<std::string> result_files(const RunOptions& options) {
     return files;
 }
 
+/// Files of an earlier run that tell nothing of this one: maps of tiles, and images of more views.
+std::vector<std::string> old_files(const OutputFolder& out, const std::optional<OutputFolder>& maps,
+                                   std::size_t views) {
+    std::vector<std::string> paths = old_tile_maps(out, maps);
+    const auto there = [](const std::string& path) { return std::filesystem::exists(path); };
+    for (std::size_t v = views;; ++v) {
+        const std::string exr = out.path(view_file("image", v, ".exr"));
+        const std::string png = out.path(view_file("image", v, ".png"));
+        if (!there(exr) || !there(png)) {
+            return paths;
+        }
+        paths.push_back(exr);
+        paths.push_back(png);
+    }
+}
+
 void write_results(const RunOptions& options, const RunRequest& request, const RunResult& result,
                    const OutputFolder& out, const std::optional<OutputFolder>& maps) {
     const AcceleratorResult& run = result.accelerator;
@@ -281,7 +298,7 @@ void run(const RunOptions& options) {
                 simulate_traced(options.memory_trace, request, changed, view, since_start));
             write_results(options, request, *result, out, maps);
         },
-        old_tile_maps(out, maps));
+        old_files(out, maps, request.views));
     print_warnings(result->warnings);
     print(summary(*result, out.path("image.exr")) + what_if_text(result->what_if) +
           (options.explain ? explanation(*result) : ""));
