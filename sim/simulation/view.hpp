@@ -59,10 +59,10 @@ struct GroupRequest {
 
 /// A run of several frames along a camera path that starts at the view's camera.
 struct PathRequest {
-    GroupRequest group;
     int frames = 1;
     double step_degrees = kPathStepDegrees;
     double near_plane = ProjectionOptions().near_plane; ///< scene units, see path_pivot()
+    GroupRequest group{};
 };
 
 /// Throws InputError, which names the option, for a number of pixels below 1.
