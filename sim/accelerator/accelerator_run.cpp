@@ -58,7 +58,7 @@ void require_equal(const std::string& law, std::uint64_t left, std::uint64_t rig
 AcceleratorResult run_accelerator(const AcceleratorConfig& config,
                                   const std::vector<const FrameWorkload*>& frames,
                                   Fidelity fidelity, const BuildOptions& options,
-                                  const Recording& recording, Progress& progress) {
+                                  const Recording& recording, Progress& progress, int views) {
     const Stopwatch elaborate;
     std::optional<Timeline> timeline;
     if (recording.timeline) {
@@ -67,7 +67,7 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     std::uint64_t activations = 0;
     const Timebase time{ClockDomain(config.clock_ghz), fidelity, timeline ? &*timeline : nullptr,
                         &activations};
-    RenderJob job = make_render_job(frames, config);
+    RenderJob job = make_render_job(frames, config, views);
     if (timeline || recording.tiles) {
         job.recorder = std::make_unique<SlotRecorder>(time.timeline);
     }
@@ -91,6 +91,9 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     result.tiles_listed = job.tiles.size();
     result.stopped = time.clock.ceil(sc_core::sc_time_stamp());
     engine->collect(result);
+    if (views > 1) {
+        group_views(result, views);
+    }
     result.sim_s += result.waited_s;
     result.energy = energy_of(config, result, pixels_of(frames));
     if (job.recorder != nullptr) {

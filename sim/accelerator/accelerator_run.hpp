@@ -21,11 +21,13 @@ struct Recording {
 
 /// Builds the accelerator, renders the frames one after the other and checks the invariants. May be
 /// called once per process, because SystemC elaborates once. All workloads must have the tile size
-/// and tile mode that the accelerator asks for. Throws std::logic_error if the model is broken.
+/// and tile mode that the accelerator asks for. Each `views` of them are one frame of that many
+/// views; their number divides that of the workloads. Throws std::logic_error if the model is
+/// broken.
 AcceleratorResult run_accelerator(const AcceleratorConfig& config,
                                   const std::vector<const FrameWorkload*>& frames,
                                   Fidelity fidelity, const BuildOptions& options,
-                                  const Recording& recording, Progress& progress);
+                                  const Recording& recording, Progress& progress, int views = 1);
 
 /// Measures a simulation from its construction on.
 class SimulationClock {

@@ -94,7 +94,7 @@ AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
     run.what_if = what_if(config, changed, frames.front(), view);
     run.load_s = view.load_s();
     run.workload_s = view.workload_s();
-    view.keep(frames, nullptr);
+    view.keep(frames, {});
     return run;
 }
 

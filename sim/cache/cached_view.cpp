@@ -5,6 +5,7 @@
 
 #include "degs/error.hpp"
 #include "scene/cameras/camera_path.hpp"
+#include "scene/cameras/eyes.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 
@@ -44,11 +45,41 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
     } else {
         cloud();
     }
-    const Camera camera = camera_of(request_, scene_);
+    views_ = path.group.views();
+    cameras_ = cameras_of(path);
     load_s_ += load_s_ > 0 ? 0 : clock.seconds();
-    cameras_ = path.frames == 1 || dynamic_
-                   ? std::vector<Camera>(path.frames, camera)
-                   : camera_path(cloud(), camera, path.frames, path.step_degrees, path.near_plane);
+}
+
+std::vector<Camera> CachedView::cameras_of(const PathRequest& path) {
+    const GroupRequest& group = path.group;
+    if (!group.cameras.empty()) {
+        std::vector<Camera> views;
+        for (const int position : group.cameras) {
+            ViewRequest view = request_;
+            view.camera = position;
+            views.push_back(camera_of(view, scene_));
+        }
+        std::vector<Camera> all;
+        for (int k = 0; k < path.frames; ++k) {
+            all.insert(all.end(), views.begin(), views.end());
+        }
+        return all;
+    }
+    const Camera camera = camera_of(request_, scene_);
+    std::vector<Camera> heads =
+        path.frames == 1 || dynamic_
+            ? std::vector<Camera>(path.frames, camera)
+            : camera_path(cloud(), camera, path.frames, path.step_degrees, path.near_plane);
+    if (!group.eyes_m) {
+        return heads;
+    }
+    std::vector<Camera> eyes;
+    for (const Camera& head : heads) {
+        for (Camera& eye : eyes_of(head, *group.eyes_m * group.units_per_metre)) {
+            eyes.push_back(std::move(eye));
+        }
+    }
+    return eyes;
 }
 
 void CachedView::open_workload(const PathRequest& path) {
@@ -75,7 +106,7 @@ FrameWorkload CachedView::packed_frame(const std::string& wanted_by,
 }
 
 std::string CachedView::frame_key(std::size_t k) const {
-    return dynamic_ && !key_.empty() ? key_ + ", frame " + std::to_string(k) : key_;
+    return dynamic_ && !key_.empty() ? key_ + ", frame " + std::to_string(k / views_) : key_;
 }
 
 const GaussianCloud& CachedView::cloud() {
@@ -112,12 +143,27 @@ std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
     }
     if (frames.size() < cameras_.size()) {
         double seconds = 0;
-        frames = dynamic_ ? make_workloads(*dynamic_, facts_.traits, cameras_, config, seconds)
-                          : make_workloads(cloud(), facts_.traits, cameras_, config, seconds);
+        frames = dynamic_
+                     ? make_workloads(*dynamic_, facts_.traits, cameras_, config, seconds, views_)
+                     : make_workloads(cloud(), facts_.traits, cameras_, config, seconds);
         frames_made_ = seconds > kWorthKeeping;
         workload_s_ += seconds;
     }
     return frames;
+}
+
+std::vector<FrameWorkload>
+CachedView::with_shared_colours(const std::vector<FrameWorkload>& frames) {
+    std::vector<FrameWorkload> shared = frames;
+    const auto step = static_cast<std::size_t>(views_);
+    for (std::size_t first = 0; first < shared.size(); first += step) {
+        if (dynamic_) {
+            share_colours(dynamic_->frame(static_cast<int>(first / step)), shared, first, step);
+        } else {
+            share_colours(cloud(), shared, first, step);
+        }
+    }
+    return shared;
 }
 
 void CachedView::require_reference(const FrameWorkload& frame) const {
@@ -140,7 +186,7 @@ Reference CachedView::reference(const FrameWorkload& frame) {
     Reference made = frame.projection.numbers.is_reference()
                          ? make_reference(frame)
                          : make_reference(cloud(), frame, workload_s_);
-    reference_made_ = made.render_s > kWorthKeeping;
+    reference_made_ = reference_made_ || made.render_s > kWorthKeeping;
     return made;
 }
 
@@ -148,12 +194,13 @@ void CachedView::forget_cloud() {
     scene_.cloud = GaussianCloud{};
 }
 
-void CachedView::keep(const std::vector<FrameWorkload>& frames, const Reference* reference) {
+void CachedView::keep(const std::vector<FrameWorkload>& frames,
+                      const std::vector<Reference>& references) {
     for (std::size_t k = 0; frames_made_ && k < frames.size(); ++k) {
         cache_.keep(frame_key(k), frames[k]);
     }
-    if (reference != nullptr && reference_made_) {
-        cache_.keep(frame_key(0), frames.front(), *reference);
+    for (std::size_t k = 0; reference_made_ && k < references.size(); ++k) {
+        cache_.keep(frame_key(k), frames[k], references[k]);
     }
 }
 

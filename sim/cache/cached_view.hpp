@@ -22,9 +22,13 @@ public:
 
     /// Facts of the scene as it was loaded, also when its Gaussians are not there.
     const SceneFacts& facts() const { return facts_; }
-    /// Cameras of the path, the view's own first. A scene that changes is seen by a camera that
-    /// stands still.
+    /// Cameras of the path, the view's own first, or of the views of each of its frames. A scene
+    /// that changes is seen by a camera that stands still.
     const std::vector<Camera>& cameras() const { return cameras_; }
+    /// Views of a frame follow each other among the cameras and the frames.
+    int views() const { return views_; }
+    /// The frames with colours that the views of each share: those from their middle.
+    std::vector<FrameWorkload> with_shared_colours(const std::vector<FrameWorkload>& frames);
     /// The frames with the tiles of the accelerator, projected in its numbers.
     std::vector<FrameWorkload> frames(const AcceleratorConfig& config);
     /// Throws InputError if the view is a workload file without the reference of such a frame.
@@ -35,14 +39,16 @@ public:
     bool has_cloud() const { return !scene_.cloud.empty(); }
     /// Frees the Gaussians; they are loaded again if they are needed after all.
     void forget_cloud();
-    /// Keeps what was made and took some time: the frames, and references as they were returned.
-    void keep(const std::vector<FrameWorkload>& frames, const Reference* reference);
+    /// Keeps what was made and took some time: the frames, and references, as they were returned,
+    /// of the first ones.
+    void keep(const std::vector<FrameWorkload>& frames, const std::vector<Reference>& references);
 
     double load_s() const { return load_s_; }         ///< host
     double workload_s() const { return workload_s_; } ///< host, projections
 
 private:
     void open_workload(const PathRequest& path);
+    std::vector<Camera> cameras_of(const PathRequest& path);
     /// A frame of the workload file.
     FrameWorkload packed_frame(const std::string& wanted_by, const ProjectionOptions& options,
                                int tile_size, TileMode mode);
@@ -59,6 +65,7 @@ private:
     std::optional<WorkloadFile> workload_;  ///< instead of a scene
     SceneFacts facts_;
     std::vector<Camera> cameras_;
+    int views_ = 1;
     double load_s_ = 0, workload_s_ = 0;
     bool frames_made_ = false, reference_made_ = false; ///< and worth keeping
 };

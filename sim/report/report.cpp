@@ -11,6 +11,7 @@
 #include "scene/cameras/lens_terms.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/report/losses.hpp"
+#include "sim/report/view_words.hpp"
 #include "sim/report/what_if_words.hpp"
 #include "stats/statistics_document.hpp"
 
@@ -285,6 +286,9 @@ ordered_json report(const RunResult& result) {
         list_statistics([&](StatsVisitor& visitor) { describe_outcome(result, visitor); })));
     if (result.changes) {
         json["changes"] = changes_json(*result.changes);
+    }
+    if (!result.views.empty()) {
+        json["views"] = views_json(result);
     }
     if (result.sampling) {
         json["sampling"] = sampling_json(*result.sampling);

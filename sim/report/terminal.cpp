@@ -10,6 +10,7 @@
 #include "config/config_words.hpp"
 #include "modules/kit/accelerator/waiting_causes.hpp"
 #include "sim/report/losses.hpp"
+#include "sim/report/view_words.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/words.hpp"
 
@@ -36,13 +37,18 @@ std::string scene_line(const RunResult& result) {
     const std::uint64_t fragments =
         reference ? reference->fragments : result.accelerator.fragments();
     // The reference shows the first frame, and the accelerator counts those of all frames.
-    const std::size_t frames = reference ? 1 : result.accelerator.frames.size();
+    const AcceleratorResult& run = result.accelerator;
+    const std::size_t frames = reference           ? 1
+                               : run.views.empty() ? run.frames.size()
+                                                   : run.views.size();
     const std::uint64_t pixels = result.camera.pixels() * std::max<std::size_t>(frames, 1);
     const std::uint64_t visible = result.workload.visible; // in the first frame alone
     return scene_words(result.scene) + kDot + grouped(visible) + " visible" + kDot +
            scaled(fragments) + " fragments " +
-           (frames > 1 ? "in " + std::to_string(frames) + " frames " : "") + "(" +
-           three_digits(ratio_of(fragments, pixels)) + " per pixel" +
+           (frames > 1
+                ? "in " + std::to_string(frames) + (run.views.empty() ? " frames " : " views ")
+                : "") +
+           "(" + three_digits(ratio_of(fragments, pixels)) + " per pixel" +
            (frames <= 1 && visible > 0
                 ? ", " + three_digits(ratio_of(fragments, visible)) + " per visible splat"
                 : "") +
@@ -62,8 +68,10 @@ std::string frame_line(const RunResult& result) {
     const Cycle latency = run.frames.empty() ? 0 : run.frames.front().finished;
     const double ms = rate_of(latency, run.clock_ghz) * 1e-6;
     const std::optional<double> steady = steady_fps(run);
-    return size_words(result.camera) + kDot + three_digits(ms) + " ms" + kDot +
-           (ms > 0 ? three_digits(1e3 / ms) : "-") + " fps" + kDot +
+    const std::size_t views = std::max<std::size_t>(1, result.views.size());
+    return (views > 1 ? std::to_string(views) + " × " : "") + size_words(result.camera) + kDot +
+           three_digits(ms) + " ms" + kDot + (ms > 0 ? three_digits(1e3 / ms) : "-") + " fps" +
+           kDot +
            (steady ? three_digits(*steady) + " fps over " + std::to_string(run.frames.size()) +
                          " frames" + kDot
                    : "") +
@@ -252,6 +260,9 @@ std::string summary(const RunResult& result, const std::string& image_path) {
         block.insert(std::find_if(block.begin(), block.end(),
                                   [](const auto& line) { return line.first == "memory"; }),
                      {"buffers", buffers}); // behind the stages
+    }
+    if (!result.views.empty()) {
+        block.push_back({"views", views_words(result)});
     }
     if (result.changes) {
         block.push_back({"changes", changes_words(*result.changes)});

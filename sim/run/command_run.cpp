@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs run: one frame, or a camera path, on one accelerator.
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -47,6 +49,9 @@ struct RunOptions {
     std::string memory_trace; ///< file; empty: none
 };
 
+const std::string kSeveralViews =
+    "Estimates are of frames with one view, so --eyes and --views cannot be combined with ";
+
 /// What needs every tile cannot come from a sample.
 std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
     std::optional<SamplingRequest> sampling =
@@ -73,6 +78,9 @@ std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
     if (options.path.frames > 1) {
         refuse("--frames");
     }
+    if (options.path.group.views() > 1) {
+        throw InputError(kSeveralViews + "--within or --fidelity sampled.");
+    }
     return sampling;
 }
 
@@ -96,6 +104,9 @@ void refuse_beside_analytic(const RunOptions& options) {
                              "analytic.");
         }
     }
+    if (options.path.group.views() > 1) {
+        throw InputError(kSeveralViews + "--fidelity analytic.");
+    }
 }
 
 void estimate(const RunOptions& options) {
@@ -110,6 +121,23 @@ void estimate(const RunOptions& options) {
     print(analytic_text(run));
 }
 
+/// References of the views of the first frame, none if they are not asked for.
+std::vector<Reference> references_of(const std::vector<FrameWorkload>& workloads,
+                                     const RunRequest& request, CachedView& view) {
+    std::vector<Reference> references;
+    for (int v = 0; v < request.views; ++v) {
+        references.push_back(view.reference(workloads[v]));
+    }
+    return references;
+}
+
+void judge_views(RunResult& result, const std::vector<Reference>& references) {
+    judge(result, references.front());
+    for (std::size_t v = 0; v < result.views.size(); ++v) {
+        judge_view(result, v, references[v]);
+    }
+}
+
 /// Makes or finds the frames, runs them and compares with the reference.
 RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& changed,
                    CachedView& view, const Stopwatch& since_start) {
@@ -119,32 +147,37 @@ RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& 
         view.require_reference(workloads.front());
     }
     std::vector<WhatIf> worth = what_if(request.config, changed, workloads.front(), view);
-    std::optional<Reference>
-        reference; // now if it needs Gaussians that are there, else after the run
+    std::vector<Reference> references; // now if they need Gaussians that are there
     const bool from_scene = request.reference && view.has_cloud() &&
                             !workloads.front().projection.numbers.is_reference();
     if (from_scene && !request.sampling) {
-        reference = view.reference(workloads.front());
+        references = references_of(workloads, request, view);
+    }
+    std::vector<FrameWorkload> shaded; // with the colours that views share
+    if (request.views > 1 && request.config.accelerator().view_sharing() == ViewSharing::Colour) {
+        shaded = view.with_shared_colours(workloads);
     }
     view.forget_cloud(); // everything that follows needs the splats only
     std::vector<const FrameWorkload*> frames;
     frames.reserve(workloads.size());
-    for (const FrameWorkload& workload : workloads) {
+    for (const FrameWorkload& workload : shaded.empty() ? workloads : shaded) {
         frames.push_back(&workload);
     }
     RunResult result = run_frames(request, frames);
     put_scene(view.facts(), result);
     result.what_if = std::move(worth);
     if (request.reference && !result.sampling) { // most of a sample's image is missing
-        reference = reference ? std::move(reference) : view.reference(workloads.front());
-        judge(result, *reference);
+        if (references.empty()) {
+            references = references_of(workloads, request, view);
+        }
+        judge_views(result, references);
     }
     result.host.load_s = view.load_s();
     result.host.start_s = since_start.seconds_to(result.accelerator.sim_start);
     result.host.workload_s = view.workload_s();
     result.host.wall_s = view.load_s() + wall.seconds();
     result.host.peak_rss_bytes = peak_rss_bytes();
-    view.keep(workloads, reference ? &*reference : nullptr);
+    view.keep(workloads, references);
     return result;
 }
 
@@ -171,14 +204,44 @@ std::vector<ChangedDesign> wanted_changes(const RunOptions& options, const RunCo
         throw InputError("--what-if estimates whole frames, so it cannot be combined with "
                          "--array-only.");
     }
+    if (options.path.group.views() > 1 && !options.what_if.empty()) {
+        throw InputError(kSeveralViews + "--what-if.");
+    }
     return changed_designs(config, options.what_if);
+}
+
+std::vector<std::string> result_files(const RunOptions& options) {
+    std::vector<std::string> files = image_result_files("report.json");
+    for (int v = 1; v < options.path.group.views(); ++v) {
+        files.push_back(view_file("image", v, ".exr"));
+        files.push_back(view_file("image", v, ".png"));
+    }
+    return files;
+}
+
+/// Files of an earlier run that tell nothing of this one: maps of tiles, and images of more views.
+std::vector<std::string> old_files(const OutputFolder& out, const std::optional<OutputFolder>& maps,
+                                   std::size_t views) {
+    std::vector<std::string> paths = old_tile_maps(out, maps);
+    const auto there = [](const std::string& path) { return std::filesystem::exists(path); };
+    for (std::size_t v = views;; ++v) {
+        const std::string exr = out.path(view_file("image", v, ".exr"));
+        const std::string png = out.path(view_file("image", v, ".png"));
+        if (!there(exr) || !there(png)) {
+            return paths;
+        }
+        paths.push_back(exr);
+        paths.push_back(png);
+    }
 }
 
 void write_results(const RunOptions& options, const RunRequest& request, const RunResult& result,
                    const OutputFolder& out, const std::optional<OutputFolder>& maps) {
     const AcceleratorResult& run = result.accelerator;
-    write_exr(run.images.front(), out.path("image.exr"));
-    write_png(run.images.front(), out.path("image.png"));
+    for (std::size_t v = 0; v < std::max<std::size_t>(1, result.views.size()); ++v) {
+        write_exr(run.images[v], out.path(view_file("image", v, ".exr")));
+        write_png(run.images[v], out.path(view_file("image", v, ".png")));
+    }
     out.write_json("report.json", report(result));
     if (request.recording.timeline) {
         write_trace({run.name, run.clock_ghz, run.timeline, spans_of(run),
@@ -204,7 +267,7 @@ void run(const RunOptions& options) {
     PathRequest path = options.path;
     path.near_plane = config.accelerator().data_path().rules.near;
     CachedView view(options.view, path, options.no_cache ? FrameCache() : FrameCache::of_user());
-    const OutputFolder out(options.out, image_result_files("report.json"));
+    const OutputFolder out(options.out, result_files(options));
     const bool strict = options.fidelity == "strict" || options.block_log.given();
     RunRequest request;
     request.config = config;
@@ -212,6 +275,7 @@ void run(const RunOptions& options) {
     request.build.array_only = options.array_only;
     request.reference = !options.no_reference;
     request.sampling = sampling;
+    request.views = path.group.views();
     std::optional<OutputFolder> maps;
     if (!options.maps.empty()) {
         maps.emplace(options.maps, tile_map_files());
@@ -234,7 +298,7 @@ void run(const RunOptions& options) {
                 simulate_traced(options.memory_trace, request, changed, view, since_start));
             write_results(options, request, *result, out, maps);
         },
-        old_tile_maps(out, maps));
+        old_files(out, maps, request.views));
     print_warnings(result->warnings);
     print(summary(*result, out.path("image.exr")) + what_if_text(result->what_if) +
           (options.explain ? explanation(*result) : ""));
@@ -249,6 +313,7 @@ void add_run_command(CLI::App& program) {
     add_config_option(*command, options->config)->required();
     add_view_or_workload_options(*command, options->view);
     add_path_options(*command, options->path);
+    add_group_options(*command, options->path.group);
     command
         ->add_option("--fidelity", options->fidelity,
                      "exact; strict: synchronise every cycle, the results are the same; "

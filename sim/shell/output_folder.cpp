@@ -126,6 +126,10 @@ std::vector<std::string> image_result_files(const std::string& document) {
     return files;
 }
 
+std::string view_file(const std::string& name, std::size_t view, const std::string& ending) {
+    return name + (view == 0 ? "" : "-" + std::to_string(view)) + ending;
+}
+
 std::string json_text(const nlohmann::ordered_json& value) {
     return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -48,6 +48,10 @@ void refuse_output_in_use(const std::string& path);
 /// command is among them: it does not tell of the new image.
 std::vector<std::string> image_result_files(const std::string& document);
 
+/// The file of a view of a frame: NAME and its ending, with the number of the view in between but
+/// for the first one: image.exr, image-1.exr.
+std::string view_file(const std::string& name, std::size_t view, const std::string& ending);
+
 /// A document as it is written to a file; bytes that are not UTF-8 become U+FFFD.
 std::string json_text(const nlohmann::ordered_json& value);
 

@@ -8,6 +8,7 @@ namespace {
 
 /// All frames of a path are in memory at once; a typing error should not fill it.
 constexpr int kMostFrames = 10000;
+constexpr double kMostEyeDistance = 1000; // m
 
 } // namespace
 
@@ -141,6 +142,33 @@ void add_path_options(CLI::App& command, PathRequest& request) {
         ->check(CLI::Range(-kMostPathStepDegrees, kMostPathStepDegrees))
         ->needs(frames)
         ->capture_default_str();
+}
+
+void add_group_options(CLI::App& command, GroupRequest& request) {
+    CLI::Option* const eyes =
+        command
+            .add_option("--eyes", request.eyes_m,
+                        "distance of two eyes, m: each frame has two views, half of it to the left "
+                        "and to the right of the camera")
+            ->type_name("METRES")
+            ->check(CLI::Range(0.0, kMostEyeDistance));
+    command.add_option("--units-per-metre", request.units_per_metre, "scene units for a metre")
+        ->check(CLI::Range(1e-6, 1e6))
+        ->needs(eyes)
+        ->capture_default_str();
+    CLI::Option* const views =
+        command
+            .add_option_function<std::string>(
+                "--views",
+                [&request](const std::string& text) { request.cameras = group_cameras(text); },
+                "positions of cameras, separated by commas, that are views of one frame and share "
+                "what projection.shared_by_views says")
+            ->type_name("POSITIONS")
+            ->excludes(eyes);
+    for (const char* option : {"--camera", "--path-step", "--workload"}) {
+        views->excludes(command.get_option(option));
+    }
+    eyes->excludes(command.get_option("--workload"));
 }
 
 void add_sampling_options(CLI::App& command, std::optional<std::string>& within,

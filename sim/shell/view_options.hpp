@@ -44,6 +44,9 @@ CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* 
 /// Adds --frames and --path-step.
 void add_path_options(CLI::App& command, PathRequest& request);
 
+/// Adds --eyes, --units-per-metre and --views, the views of each frame, to a command with --camera.
+void add_group_options(CLI::App& command, GroupRequest& request);
+
 /// Adds --within and --seed, for commands that may simulate a sample of the tiles.
 void add_sampling_options(CLI::App& command, std::optional<std::string>& within,
                           std::uint64_t& seed);

@@ -7,10 +7,12 @@
 #include <sys/resource.h>
 
 #include "degs/error.hpp"
+#include "scene/cameras/eyes.hpp"
 #include "sim/process/reserve.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/simulation/loss_keys.hpp"
 #include "sim/simulation/warnings.hpp"
+#include "splat/frame/shared_colours.hpp"
 
 namespace degs::sim {
 
@@ -63,18 +65,34 @@ std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const Scen
 
 std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
-                                          const AcceleratorConfig& config, double& seconds) {
-    if (static_cast<int>(cameras.size()) > scene.frames()) {
+                                          const AcceleratorConfig& config, double& seconds,
+                                          int views) {
+    const int frames = static_cast<int>(cameras.size()) / views;
+    if (frames > scene.frames()) {
         throw InputError("The scene has " + std::to_string(scene.frames()) + " frames, and " +
-                         std::to_string(cameras.size()) + " were asked for (--frames).");
+                         std::to_string(frames) + " were asked for (--frames).");
     }
     std::vector<FrameWorkload> workloads;
-    for (std::size_t k = 0; k < cameras.size(); ++k) {
-        const GaussianCloud cloud = scene.frame(static_cast<int>(k));
-        workloads.push_back(
-            std::move(make_workloads(cloud, traits, {cameras[k]}, config, seconds).front()));
+    for (int k = 0; k < frames; ++k) {
+        const GaussianCloud cloud = scene.frame(k);
+        const auto first = cameras.begin() + k * views;
+        for (FrameWorkload& view :
+             make_workloads(cloud, traits, {first, first + views}, config, seconds)) {
+            workloads.push_back(std::move(view));
+        }
     }
     return workloads;
+}
+
+void share_colours(const GaussianCloud& cloud, std::vector<FrameWorkload>& frames,
+                   std::size_t first, std::size_t count) {
+    std::vector<Camera> cameras;
+    for (std::size_t f = first; f < first + count; ++f) {
+        cameras.push_back(frames[f].camera);
+    }
+    for (std::size_t f = first; f < first + count; ++f) {
+        shade_from(cloud, middle_of(cameras), frames[f]);
+    }
 }
 
 Reference make_reference(const FrameWorkload& workload) {
@@ -104,6 +122,11 @@ void judge(RunResult& result, const Reference& reference,
     result.host.render_s = reference.render_s;
     result.workload.reference = reference.counts;
     result.error = compare(reference.image, result.accelerator.images.front());
+}
+
+void judge_view(RunResult& result, std::size_t view, const Reference& reference) {
+    result.views[view].workload.reference = reference.counts;
+    result.views[view].error = compare_images(reference.image, result.accelerator.images[view]);
 }
 
 namespace {
@@ -138,6 +161,16 @@ std::optional<SampledResult> try_sample(const RunRequest& request,
     reserve.call(refusal);
 }
 
+/// The first view of every frame.
+std::vector<const FrameWorkload*> first_views(const std::vector<const FrameWorkload*>& frames,
+                                              std::size_t views) {
+    std::vector<const FrameWorkload*> first;
+    for (std::size_t f = 0; f < frames.size(); f += views) {
+        first.push_back(frames[f]);
+    }
+    return first;
+}
+
 const char* name_of(Fidelity fidelity) {
     return fidelity == Fidelity::Strict ? "strict" : "exact";
 }
@@ -152,8 +185,12 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
     result.camera = frames.front()->camera;
     result.workload = facts_of(*frames.front());
     result.warnings = request.config.warnings;
-    if (frames.size() > 1) {
-        result.changes = frame_changes(frames);
+    const auto views = static_cast<std::size_t>(request.views);
+    if (frames.size() > views) {
+        result.changes = frame_changes(first_views(frames, views));
+    }
+    for (std::size_t v = 0; views > 1 && v < views; ++v) {
+        result.views.push_back({frames[v]->camera, facts_of(*frames[v]), {}});
     }
     for (std::string& sentence :
          saturation_warnings(request.config.accelerator().data_path(), *frames.front())) {
@@ -176,8 +213,9 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
         result.sampling = std::move(sampled->facts);
     } else {
         Progress progress("simulation");
-        result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
-                                             request.build, request.recording, progress);
+        result.accelerator =
+            run_accelerator(request.config.accelerator(), frames, request.fidelity, request.build,
+                            request.recording, progress, request.views);
     }
     for (std::string& sentence : hazard_warnings(result.accelerator)) {
         result.warnings.push_back(std::move(sentence));

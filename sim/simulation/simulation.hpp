@@ -25,6 +25,7 @@ struct RunRequest {
     Fidelity fidelity = Fidelity::Exact;
     BuildOptions build;
     bool reference = true; ///< render the double-precision image and compare
+    int views = 1;         ///< of a frame; they follow each other
     Recording recording;
     std::optional<SamplingRequest> sampling; ///< simulate a sample of the tiles, if it will do
 };
@@ -60,15 +61,23 @@ struct HostFacts {
     std::uint64_t peak_rss_bytes = 0;
 };
 
+/// One of several views of the first frame.
+struct ViewFacts {
+    Camera camera;
+    WorkloadFacts workload;
+    std::optional<ImageError> error; ///< against its reference
+};
+
 struct RunResult {
     SceneFacts scene;
-    Camera camera; ///< of the first frame
+    Camera camera; ///< of the first view of the first frame
     RunConfig config;
-    WorkloadFacts workload; ///< of the first frame
+    WorkloadFacts workload; ///< of that view
     AcceleratorResult accelerator;
     std::vector<std::string> movable_keys; ///< see LossKeys::movable; asked before the simulation
     std::vector<std::string> warnings;     ///< sentences; see warnings.hpp
-    std::optional<ImageError> error;       ///< first frame against the reference
+    std::optional<ImageError> error;       ///< of that view against the reference
+    std::vector<ViewFacts> views;          ///< of the first frame, if it has several
     std::optional<FrameChanges> changes;   ///< of a run of several frames
     std::optional<SamplingFacts> sampling; ///< if the numbers are estimates from a sample
     std::vector<WhatIf> what_if;           ///< changes that were asked for (--what-if)
@@ -94,19 +103,27 @@ std::uint64_t peak_rss_bytes();
 std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
-/// The frames of a scene that changes, made like those of a cloud: frame k, seen by camera k.
-/// InputError for more cameras than the scene has frames.
+/// The frames of a scene that changes, made like those of a cloud: frame k, seen by the `views`
+/// cameras from k x views on. InputError for more frames than the scene has.
 std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
-                                          const AcceleratorConfig& config, double& seconds);
+                                          const AcceleratorConfig& config, double& seconds,
+                                          int views = 1);
+/// Gives `count` frames of a cloud, from `first` on, the colours that they have from the middle of
+/// their cameras.
+void share_colours(const GaussianCloud& cloud, std::vector<FrameWorkload>& frames,
+                   std::size_t first, std::size_t count);
 Reference make_reference(const FrameWorkload& workload);
 /// The reference of a frame in any format: what was not projected in double is projected again, and
 /// the host seconds of that are added to `seconds`.
 Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame, double& seconds);
-/// Fills in the reference, and the first frame's error against it, which `compare` finds.
+/// Fills in the reference of the first image, and its error against it, which `compare` finds.
 void judge(RunResult& result, const Reference& reference,
            const std::function<ImageError(const Image& reference, const Image& test)>& compare =
                compare_images);
+
+/// Fills in the reference of a later view of the first frame, and the error of its image.
+void judge_view(RunResult& result, std::size_t view, const Reference& reference);
 
 /// Runs the accelerator on frames that were made for it (at least one). The caller fills in the
 /// facts of the scene, the host times of earlier steps and the comparison. Throws std::logic_error

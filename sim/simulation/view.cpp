@@ -12,6 +12,7 @@
 #include "degs/error.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/process/stopwatch.hpp"
+#include "sim/text/comma_parts.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
 
@@ -60,6 +61,25 @@ std::optional<int> camera_position(const std::string& text) {
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     const bool good = error == std::errc() && rest == end && value >= 0;
     return good ? std::optional<int>(value) : std::nullopt;
+}
+
+std::vector<int> group_cameras(const std::string& text) {
+    constexpr std::size_t kMostViews = 64;
+    std::vector<int> cameras;
+    for (const std::string& part : comma_parts(text)) {
+        const std::optional<int> position = camera_position(part);
+        if (!position) {
+            cameras.clear();
+            break;
+        }
+        cameras.push_back(*position);
+    }
+    if (cameras.size() < 2 || cameras.size() > kMostViews) {
+        throw InputError("--views is '" + text +
+                         "', but must be 2 to 64 positions in the scene's list of cameras, "
+                         "separated by commas, as in 0,1.");
+    }
+    return cameras;
 }
 
 int one_camera(const std::string& text) {

@@ -24,6 +24,8 @@ struct ViewRequest {
 
 /// The position in a list of cameras that `text` says, or nothing if it says none.
 std::optional<int> camera_position(const std::string& text);
+/// At least two positions in a list of cameras, separated by commas. Throws InputError.
+std::vector<int> group_cameras(const std::string& text);
 /// The camera position in the option of a command that renders one view. Throws InputError.
 int one_camera(const std::string& text);
 
@@ -43,11 +45,24 @@ std::vector<std::string> resolution_names();
 /// lists the names for any other.
 int resolution_height(const std::string& name);
 
+/// Several views of each frame: the eyes of a head, or cameras of the scene.
+struct GroupRequest {
+    std::optional<double> eyes_m; ///< distance of two eyes, m
+    double units_per_metre = 1;   ///< scene units
+    std::vector<int> cameras;     ///< positions in the scene's list; empty: none
+
+    /// Views of a frame.
+    int views() const {
+        return eyes_m ? 2 : cameras.empty() ? 1 : static_cast<int>(cameras.size());
+    }
+};
+
 /// A run of several frames along a camera path that starts at the view's camera.
 struct PathRequest {
     int frames = 1;
     double step_degrees = kPathStepDegrees;
     double near_plane = ProjectionOptions().near_plane; ///< scene units, see path_pivot()
+    GroupRequest group{};
 };
 
 /// Throws InputError, which names the option, for a number of pixels below 1.

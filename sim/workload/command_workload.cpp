@@ -60,7 +60,7 @@ void run_export(const ExportOptions& options) {
                     options.no_cache ? FrameCache() : FrameCache::of_user());
     const OutputFolder out(options.out, workload_files());
     const std::vector<FrameWorkload> frames = view.frames(design);
-    view.keep(frames, nullptr);
+    view.keep(frames, {});
     view.forget_cloud();
     const FrameWorkload& frame = frames.front();
     ExportedWorkload work;

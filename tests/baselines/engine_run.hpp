@@ -18,9 +18,10 @@ class EngineRun {
 public:
     EngineRun(const std::string& name, const AcceleratorConfig& config,
               const std::vector<const FrameWorkload*>& frames, Fidelity fidelity = Fidelity::Exact,
-              const BuildOptions& options = {})
-        : time_{ClockDomain(config.clock_ghz), fidelity}, job_(make_render_job(frames, config)),
-          pes_(config.pes()), clock_ghz_(config.clock_ghz) {
+              const BuildOptions& options = {}, int views = 1)
+        : time_{ClockDomain(config.clock_ghz), fidelity},
+          job_(make_render_job(frames, config, views)), pes_(config.pes()),
+          clock_ghz_(config.clock_ghz) {
         EXPECT_EQ(config.problem(), "");
         engine_ = config.build(name.c_str(), time_, job_, options);
     }

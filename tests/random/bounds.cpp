@@ -31,15 +31,15 @@ constexpr double kRounding = 1 + 1e-9;
 
 void check_dates(const Finished& run, Complaints& complaints) {
     const AcceleratorResult& r = run.result;
-    complaints.equal("frames finished", r.frames.size(), run.frames.size());
+    const std::vector<FrameDates>& images = r.views.empty() ? r.frames : r.views;
+    complaints.equal("frames finished", images.size(), run.frames.size());
     Cycle last = 0;
-    for (std::size_t f = 0; f < r.frames.size(); ++f) {
+    for (std::size_t f = 0; f < images.size(); ++f) {
         const std::string frame = "frame " + std::to_string(f);
-        complaints.at_most(frame + " is preprocessed, then finished", r.frames[f].preprocessed,
-                           r.frames[f].finished);
-        complaints.at_most(frame + " is finished after its predecessor", last,
-                           r.frames[f].finished);
-        last = r.frames[f].finished;
+        complaints.at_most(frame + " is preprocessed, then finished", images[f].preprocessed,
+                           images[f].finished);
+        complaints.at_most(frame + " is finished after its predecessor", last, images[f].finished);
+        last = images[f].finished;
     }
     complaints.equal("the run ends with its last frame", r.cycles, last);
     if (run.config.ends_with_its_pixels()) {
@@ -102,6 +102,9 @@ void check_memory(const Finished& run, Complaints& complaints) {
     for (const FrameWorkload* frame : run.frames) {
         pixels += static_cast<std::uint64_t>(frame->camera.width) * frame->camera.height;
         gaussians += frame->gaussians;
+    }
+    if (run.config.view_sharing() != ViewSharing::Nothing) { // views of a frame read them once
+        gaussians /= run.frames.size() / r.frames.size();
     }
     complaints.at_most("bytes of all pixels", pixels * run.config.records().pixel_bytes,
                        bytes_of(r, "frame_buffer"));

@@ -62,6 +62,10 @@ void draw_scene(Dice& dice, Trial& trial) {
         trial.frames = 2 + dice.below(4);
         trial.step_degrees = dice.chance(0.5) ? 0.5 : 40;
     }
+    if (dice.chance(0.25)) {
+        const double distances[] = {0, 0.065, 0.5, 20};
+        trial.eyes = distances[dice.below(4)];
+    }
     trial.array_only = dice.chance(0.2);
 }
 

@@ -29,10 +29,16 @@ std::string Trial::arguments() const {
                        " --camera-file tests/random/cameras.json --camera " +
                        std::to_string(camera) + " --width " + std::to_string(width) + " --height " +
                        std::to_string(height);
+    const auto number = [](double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%g", value);
+        return std::string(text);
+    };
     if (frames > 1) {
-        char step[32];
-        std::snprintf(step, sizeof step, "%g", step_degrees);
-        line += " --frames " + std::to_string(frames) + " --path-step " + step;
+        line += " --frames " + std::to_string(frames) + " --path-step " + number(step_degrees);
+    }
+    if (eyes) {
+        line += " --eyes " + number(*eyes);
     }
     if (array_only) {
         line += " --array-only";

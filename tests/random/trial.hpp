@@ -2,6 +2,7 @@
 // A drawn design with what it renders, in the words of `degs run`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Trial {
     int width = 1, height = 1;
     int frames = 1;
     double step_degrees = 0.5;
+    std::optional<double> eyes; ///< distance, scene units: two views in each frame
     bool array_only = false;
 
     std::vector<std::string> overrides() const;

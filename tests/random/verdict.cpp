@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 
 #include "scene/cameras/camera_path.hpp"
+#include "scene/cameras/eyes.hpp"
 #include "sim/report/report.hpp"
 #include "sim/simulation/simulation.hpp"
 #include "tests/random/promises.hpp"
@@ -49,6 +50,21 @@ std::uint64_t hash_of(const std::vector<Image>& images) {
     return hash;
 }
 
+/// The cameras of all frames, one for each eye.
+std::vector<Camera> cameras_of(const Trial& trial, const sim::View& view) {
+    std::vector<Camera> heads =
+        camera_path(view.scene.cloud, view.camera, trial.frames, trial.step_degrees);
+    if (!trial.eyes) {
+        return heads;
+    }
+    std::vector<Camera> eyes;
+    for (const Camera& head : heads) {
+        const std::vector<Camera> both = eyes_of(head, *trial.eyes);
+        eyes.insert(eyes.end(), both.begin(), both.end());
+    }
+    return eyes;
+}
+
 /// In the child: runs the trial and says everything about it but what the machine took.
 std::string run_one(const Trial& trial, const std::string& configs, const std::string& cameras,
                     const Limits& limits, Fidelity fidelity) {
@@ -60,10 +76,10 @@ std::string run_one(const Trial& trial, const std::string& configs, const std::s
     const sim::View view =
         sim::load_view({trial.scene, cameras, trial.camera, trial.width, trial.height, "", "", ""});
     double seconds = 0;
-    const std::vector<FrameWorkload> workloads = sim::make_workloads(
-        view.scene.cloud, view.scene.traits,
-        camera_path(view.scene.cloud, view.camera, trial.frames, trial.step_degrees),
-        request.config.accelerator(), seconds);
+    const std::vector<FrameWorkload> workloads =
+        sim::make_workloads(view.scene.cloud, view.scene.traits, cameras_of(trial, view),
+                            request.config.accelerator(), seconds);
+    request.views = trial.eyes ? 2 : 1;
     std::vector<const FrameWorkload*> frames;
     for (const FrameWorkload& workload : workloads) {
         frames.push_back(&workload);

@@ -50,6 +50,7 @@ struct Config : AcceleratorConfig {
     }
     std::vector<LossKey> loss_keys() const override;
     TrafficConfig records() const override { return traffic.common(); }
+    ViewSharing view_sharing() const override { return grouping.shared_by_views; }
     cost::BillOfMaterials bill() const override;
     /// What the blocks do for that work, all but the Pixel Buffer; an array alone has no stages
     /// before it.

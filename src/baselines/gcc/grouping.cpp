@@ -20,6 +20,10 @@ void Grouping::Config::describe(ConfigVisitor& visitor) {
     visitor.choice("lists", lists, {"direct", "regrouped"},
                    "image of several views: entries go to the lists of the views at once, or "
                    "through groups of the image in a second pass [assumed]");
+    visitor.choice("shared_by_views", shared_by_views, {"nothing", "geometry"},
+                   "views of a frame (--eyes, --views): nothing: each is a frame of its own; "
+                   "geometry: Stage I reads the means once, Stages II and III share nothing "
+                   "[assumed]");
 }
 
 Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
@@ -29,8 +33,8 @@ Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
       frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), means("means", time),
       lists("lists", time), config_(config), traffic_(traffic), job_(job),
       frames_in_flight_(frames_in_flight), fetcher_(time), grouper_(time),
-      fetched_("fetched", time, config.chunks_in_flight),
-      acknowledged_(config.writes_in_flight, 0) {
+      fetched_("fetched", time, config.chunks_in_flight), acknowledged_(config.writes_in_flight, 0),
+      regions_(job.views) {
     DEGS_HAS_PROCESS(Grouping);
     SC_THREAD(fetch);
     SC_THREAD(group);
@@ -54,9 +58,12 @@ void Grouping::end_of_elaboration() {
 
 void Grouping::fetch() {
     const std::uint64_t chunk = config_.chunk;
-    for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
-        if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
-            frame_free[0]->get(fetcher_);
+    const std::uint32_t views = job_.views;
+    for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); f += views) {
+        for (std::uint32_t v = 0; frames_in_flight_ != 0 && v < views; ++v) {
+            if (f >= frames_in_flight_ * views) {
+                frame_free[0]->get(fetcher_);
+            }
         }
         const FrameWorkload& frame = *job_.frames[f];
         const MemoryMap map(traffic_, job_, f);
@@ -74,42 +81,50 @@ void Grouping::fetch() {
 }
 
 void Grouping::group() {
-    for (std::uint32_t f = 0; job_.has_frame(grouper_, f); ++f) {
-        const FrameWorkload& frame = *job_.frames[f];
-        region_written_ = 0;
-        const std::uint64_t chunks = ceil_div(frame.gaussians, config_.chunk);
+    for (std::uint32_t f = 0; job_.has_frame(grouper_, f); f += job_.views) {
+        for (std::uint32_t v = 0; v < job_.views; ++v) {
+            const MemoryMap map(traffic_, job_, f + v);
+            regions_[v] = {by_view(*job_.frames[f + v]) ? map.views : map.groups, 0};
+        }
+        const std::uint64_t chunks = ceil_div(job_.frames[f]->gaussians, config_.chunk);
         for (std::uint64_t c = 0; c < chunks; ++c) {
-            group_chunk(f, fetched_.get(grouper_));
+            const Chunk chunk = fetched_.get(grouper_);
+            stats_.gaussians += chunk.count;
+            for (std::uint32_t v = 0; v < job_.views; ++v) {
+                group_chunk(f + v, chunk);
+            }
         }
-        grouper_.wait_for_memory(
-            last_write_); // lists are read back from memory: they must be there
-        if (config_.lists == Lists::Regrouped && frame.tiles() > 1) {
-            regroup(f);
-        }
-        stats_.view_entries += frame.tile_pairs();
-        frames_grouped_.push_back(grouper_.local());
-        frames_grouped_.drop_before(job_.frames.first());
-        for (auto& port : out) {
-            port->put(grouper_, f);
-        }
-        for (auto& port : listed) {
-            port->put(grouper_, f);
+        for (std::uint32_t v = 0; v < job_.views; ++v) {
+            finish_lists(f + v);
         }
     }
     grouper_.finish();
 }
 
+void Grouping::finish_lists(std::uint32_t f) {
+    const FrameWorkload& frame = *job_.frames[f];
+    grouper_.wait_for_memory(last_write_); // lists are read back from memory: they must be there
+    if (!by_view(frame)) {
+        regroup(f);
+    }
+    stats_.view_entries += frame.tile_pairs();
+    frames_grouped_.push_back(grouper_.local());
+    frames_grouped_.drop_before(job_.frames.first());
+    for (auto& port : out) {
+        port->put(grouper_, f);
+    }
+    for (auto& port : listed) {
+        port->put(grouper_, f);
+    }
+}
+
 void Grouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
     const FrameWorkload& frame = *job_.frames[f];
-    const MemoryMap map(traffic_, job_, f);
     const std::uint32_t begin = frame.visible_among(chunk.first);
     const std::uint32_t end = frame.visible_among(chunk.first + chunk.count);
-    const bool by_view = config_.lists == Lists::Direct || frame.tiles() == 1;
     const std::uint64_t entries =
-        by_view ? job_.pairs_before(f, end) - job_.pairs_before(f, begin) : end - begin;
-    stats_.gaussians += chunk.count;
-    write(by_view ? map.views : map.groups, entries,
-          ceil_div(chunk.count, config_.means_per_cycle));
+        by_view(frame) ? job_.pairs_before(f, end) - job_.pairs_before(f, begin) : end - begin;
+    write(regions_[f % job_.views], entries, ceil_div(chunk.count, config_.means_per_cycle));
 }
 
 // Entries of the image's groups come back near to far, as many requests ahead as for the means.
@@ -120,7 +135,7 @@ void Grouping::regroup(std::uint32_t f) {
     const std::size_t visible = frame.splats.size();
     const std::size_t pieces = (visible + chunk - 1) / chunk;
     std::vector<Completion> ready(config_.chunks_in_flight, 0);
-    region_written_ = 0;
+    Region views{map.views, 0};
     std::size_t asked = 0;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
         for (; asked < std::min(pieces, piece + ready.size()); ++asked) {
@@ -135,12 +150,12 @@ void Grouping::regroup(std::uint32_t f) {
         for (std::size_t s = piece * chunk; s < std::min(visible, (piece + 1) * chunk); ++s) {
             entries += frame.tiles_touched[s];
         }
-        write(map.views, entries, 1);
+        write(views, entries, 1);
     }
     grouper_.wait_for_memory(last_write_);
 }
 
-void Grouping::write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles) {
+void Grouping::write(Region& region, std::uint64_t entries, Cycle least_cycles) {
     const Cycle entry_cycles = ceil_div(entries, config_.entries_per_cycle);
     grouper_.work(std::max(least_cycles, entry_cycles), stats_.busy);
     stats_.mean_cycles += least_cycles;
@@ -148,9 +163,9 @@ void Grouping::write(std::uint64_t region, std::uint64_t entries, Cycle least_cy
     stats_.entries_written += entries;
     Completion& oldest = acknowledged_[writes_++ % acknowledged_.size()];
     grouper_.wait_for_memory(oldest);
-    oldest = lists.write(grouper_, region + region_written_ * traffic_.entry_bytes(),
+    oldest = lists.write(grouper_, region.base + region.entries * traffic_.entry_bytes(),
                          entries * traffic_.entry_bytes());
-    region_written_ += entries;
+    region.entries += entries;
     last_write_ = latest(last_write_, oldest);
 }
 

@@ -7,6 +7,7 @@
 
 #include "baselines/gcc/traffic.hpp"
 #include "modules/kit/job/render_job.hpp"
+#include "modules/kit/job/view_sharing.hpp"
 #include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
@@ -22,6 +23,10 @@ enum class Lists { Direct, Regrouped };
 /// depth, drops those before the near plane or outside the image, and writes the others' (depth,
 /// index) entries into depth-ordered groups, per view if the image has several. Not modelled: how a
 /// group's depth range is chosen, and that groups come out more or less full.
+///
+/// The eyes of a frame share the means: a chunk is read once and grouped for one eye after the
+/// other. Stages II and III read what a list names and share nothing. (RenderJob calls the eyes
+/// views; in GCC these are parts of an image.)
 class Grouping : public sc_core::sc_module {
 public:
     struct Config {
@@ -31,6 +36,7 @@ public:
         int entries_per_cycle = 8; ///< list entries written per cycle
         int writes_in_flight = 8;  ///< requests not yet acknowledged
         Lists lists = Lists::Direct;
+        ViewSharing shared_by_views = ViewSharing::Geometry; ///< that at most
         void describe(ConfigVisitor& visitor);
     };
     struct Stats {
@@ -69,12 +75,21 @@ private:
     struct Chunk {
         std::uint64_t first = 0, count = 0;
     };
+    /// The lists that are being written.
+    struct Region {
+        std::uint64_t base = 0, entries = 0;
+    };
     void end_of_elaboration() override;
     void fetch();
     void group();
     void group_chunk(std::uint32_t frame, const Chunk& chunk);
     void regroup(std::uint32_t f);
-    void write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles);
+    void finish_lists(std::uint32_t f);
+    /// By view; if not, by group of the whole image.
+    bool by_view(const FrameWorkload& frame) const {
+        return config_.lists == Lists::Direct || frame.tiles() == 1;
+    }
+    void write(Region& region, std::uint64_t entries, Cycle least_cycles);
 
     Config config_;
     Traffic traffic_;
@@ -84,7 +99,7 @@ private:
     DatedFifo<Chunk> fetched_;
     std::vector<Completion> acknowledged_; // ring of completion dates of the latest writes
     std::uint64_t writes_ = 0;
-    std::uint64_t region_written_ = 0; // entries of the frame's current lists
+    std::vector<Region> regions_; // of each eye whose means are read together
     Completion last_write_;
     KeptList<Cycle> frames_grouped_; // of the frames that the job keeps
     Stats stats_;

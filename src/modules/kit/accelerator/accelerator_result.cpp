@@ -186,6 +186,16 @@ void AcceleratorResult::describe(StatsVisitor& visitor) const {
     visitor.end_section();
 }
 
+void group_views(AcceleratorResult& result, std::size_t views) {
+    result.views.swap(result.frames);
+    result.frames.assign(result.views.size() / views, {});
+    for (std::size_t v = 0; v < result.views.size(); ++v) {
+        FrameDates& frame = result.frames[v / views];
+        frame.preprocessed = std::max(frame.preprocessed, result.views[v].preprocessed);
+        frame.finished = std::max(frame.finished, result.views[v].finished);
+    }
+}
+
 std::optional<double> steady_fps(const AcceleratorResult& result) {
     const auto& frames = result.frames;
     if (frames.size() < 3) {

@@ -95,6 +95,8 @@ struct AcceleratorResult {
     bool array_only = false;
     Cycle cycles = 0; ///< start to the last pixel of the last frame in memory
     std::vector<FrameDates> frames;
+    /// Dates of the views, frame by frame, if frames have several; see group_views().
+    std::vector<FrameDates> views;
     SlotAccount slots;
     int slots_per_fragment = 1; ///< PE-cycles that a pixel of a splat takes
     ActiveWindow window;        ///< first task issued to last task retired
@@ -139,6 +141,10 @@ struct AcceleratorResult {
     /// The sections timing, stages, slots, dram and buffers of a report.
     void describe(StatsVisitor& visitor) const;
 };
+
+/// Moves the dates of a run whose frames are `views` views each to AcceleratorResult::views; a
+/// frame is preprocessed and finished with the last of its views.
+void group_views(AcceleratorResult& result, std::size_t views);
 
 /// Frames per second while the pipeline is full: of all frames but the first, which starts alone,
 /// and the last, behind which no other is preprocessed. Empty for fewer than three frames.

@@ -60,9 +60,13 @@ void AcceleratorConfig::scale_to(int pes) {
 }
 
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
-                          const AcceleratorConfig& config) {
-    return make_render_job(frames, config.data_path(), config.tile_contexts(),
-                           config.record_order(), config.tile_order);
+                          const AcceleratorConfig& config, int views) {
+    RenderJob job = make_render_job(frames, config.data_path(), config.tile_contexts(),
+                                    config.record_order(), config.tile_order);
+    if (config.view_sharing() != ViewSharing::Nothing) {
+        job.views = views;
+    }
+    return job;
 }
 
 } // namespace degs

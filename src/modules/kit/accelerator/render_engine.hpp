@@ -15,6 +15,7 @@
 #include "modules/kit/config/frame_end_config.hpp"
 #include "modules/kit/config/pipeline_config.hpp"
 #include "modules/kit/job/render_job.hpp"
+#include "modules/kit/job/view_sharing.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/event_log.hpp"
 #include "tlm/process.hpp"
@@ -147,6 +148,9 @@ struct AcceleratorConfig {
     virtual std::vector<cost::ClockLimit> clock_limits() const { return {}; }
     /// The clock that the design can reach.
     cost::ClockEstimate clock() const { return {clock_limits(), cost.logic.fo4_per_ns, clock_ghz}; }
+    /// What the views of a frame have in common; unless it is nothing, their Gaussians are read
+    /// together.
+    virtual ViewSharing view_sharing() const { return ViewSharing::Nothing; }
     /// How splat records lie in memory.
     virtual RecordOrder record_order() const { return RecordOrder::Index; }
     /// Switches to the scene as a platform's memory holds it: values of 4 B, see
@@ -171,8 +175,9 @@ private:
     virtual void describe_rows(ConfigVisitor& visitor) = 0;
 };
 
-/// The job of rendering `frames` with the data path that `config` asks for.
+/// The job of rendering `frames` with the data path that `config` asks for. `views` consecutive
+/// ones are views of one frame, of the same Gaussians; their number divides that of the frames.
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
-                          const AcceleratorConfig& config);
+                          const AcceleratorConfig& config, int views = 1);
 
 } // namespace degs

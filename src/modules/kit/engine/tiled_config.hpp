@@ -36,6 +36,7 @@ struct TiledConfig : AcceleratorConfig {
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     TrafficConfig records() const override { return traffic; }
+    ViewSharing view_sharing() const override { return projection.shared_by_views; }
     RecordOrder record_order() const override { return memory.layout; }
     void read_floats() override {
         traffic.geometry_bytes = kFloatGeometryBytes;

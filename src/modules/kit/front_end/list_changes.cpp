@@ -6,14 +6,14 @@
 namespace degs {
 
 bool ListChanges::keeps(std::uint32_t frame) const {
-    if (!lists_are_kept_ || frame == job_.first_since_reset) {
+    if (!lists_are_kept_ || frame < job_.first_since_reset + job_.views) {
         return false;
     }
-    const FrameWorkload& before = *job_.frames[frame - 1];
+    const FrameWorkload& before = *job_.frames[frame - job_.views];
     const FrameWorkload& now = *job_.frames[frame];
     return before.gaussians == now.gaussians && before.tiles_x == now.tiles_x &&
            before.tiles_y == now.tiles_y &&
-           job_.bases[frame - 1].workspace == job_.bases[frame].workspace;
+           job_.bases[frame - job_.views].workspace == job_.bases[frame].workspace;
 }
 
 std::size_t ListChanges::grid_index(const JobTile& tile) const {
@@ -26,7 +26,7 @@ void ListChanges::mark(std::uint32_t frame, std::vector<bool>& written) {
     if (!keeps(frame)) {
         return;
     }
-    const FrameWorkload& before = *job_.frames[frame - 1];
+    const FrameWorkload& before = *job_.frames[frame - job_.views];
     std::vector<std::uint32_t> listed_in(now.gaussians, 0); // the last tile, counted from 1
     for (int tile = 0; tile < now.tiles(); ++tile) {
         const std::uint32_t mark = tile + 1;

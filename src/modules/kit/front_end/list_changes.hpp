@@ -10,7 +10,8 @@ namespace degs {
 
 /// The entries of each frame's tile lists that are written for it: all, or only those of Gaussians
 /// that the tile did not list in the frame before, if lists are kept from frame to frame. Lists are
-/// kept between frames of one scene and one size.
+/// kept between frames of one scene and one size, of each view by itself if views are read
+/// together.
 class ListChanges {
 public:
     ListChanges(const RenderJob& job, bool lists_are_kept)

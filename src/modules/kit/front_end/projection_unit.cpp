@@ -24,6 +24,11 @@ void ProjectionUnit::Config::describe(ConfigVisitor& visitor) {
                     "cycles per visible Gaussian for its SH colour [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 4096,
                     "cycles; depth of the projection pipeline [assumed]");
+    visitor.choice("shared_by_views", shared_by_views, {"nothing", "geometry", "sh", "colour"},
+                   "views of a frame (--eyes, --views): nothing: each is a frame of its own; "
+                   "geometry: it is read once; sh: SH, too; colour: SH are evaluated once for the "
+                   "middle of the views, which changes images; sh is the most that does not "
+                   "[assumed]");
 }
 
 ProjectionUnit::ProjectionUnit(const sc_core::sc_module_name& name, const Config& config,
@@ -31,9 +36,10 @@ ProjectionUnit::ProjectionUnit(const sc_core::sc_module_name& name, const Config
                                const RenderJob& job, int index, int frames_in_flight)
     : sc_core::sc_module(name), geometry("geometry", time), sh("sh", time), out("out"),
       frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), config_(config), traffic_(traffic),
-      job_(job), index_(index), frames_in_flight_(frames_in_flight), fetcher_(time),
-      projector_(time), shader_(time), fetched_("fetched", time, config.chunks_in_flight),
-      projected_("projected", time, config.chunks_in_flight, config.latency_cycles) {
+      job_(job), index_(index), frames_in_flight_(frames_in_flight), views_(job.views),
+      fetcher_(time), projector_(time), shader_(time),
+      fetched_("fetched", time, config.chunks_in_flight),
+      projected_("projected", time, config.chunks_in_flight * job.views, config.latency_cycles) {
     DEGS_HAS_PROCESS(ProjectionUnit);
     SC_THREAD(fetch);
     SC_THREAD(project);
@@ -57,9 +63,12 @@ void ProjectionUnit::end_of_elaboration() {
 void ProjectionUnit::fetch() {
     const std::uint64_t chunk = config_.chunk;
     const std::uint64_t stride = chunk * config_.count;
-    for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
-        if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
-            frame_free[0]->get(fetcher_);
+    const std::uint32_t views = job_.views;
+    for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); f += views) {
+        for (std::uint32_t v = 0; frames_in_flight_ != 0 && v < views; ++v) {
+            if (f >= frames_in_flight_ * views) {
+                frame_free[0]->get(fetcher_);
+            }
         }
         const MemoryMap map = job_.map(f, traffic_);
         const std::uint64_t total = job_.frames[f]->gaussians;
@@ -77,53 +86,102 @@ void ProjectionUnit::fetch() {
 }
 
 void ProjectionUnit::project() {
-    for (std::uint32_t f = 0; job_.has_frame(projector_, f); ++f) {
-        const FrameWorkload& frame = *job_.frames[f];
-        const std::uint64_t chunk = config_.chunk;
-        for (std::uint64_t first = chunk * index_; first < frame.gaussians;
-             first += chunk * config_.count) {
-            const Chunk in = fetched_.get(projector_);
-            ProjectedChunk result;
-            result.frame = f;
-            result.first_visible = frame.visible_among(in.first);
-            result.visible = frame.visible_among(in.first + in.count) - result.first_visible;
-            result.tile_pairs = job_.pairs_before(f, result.first_visible + result.visible) -
-                                job_.pairs_before(f, result.first_visible);
-            const Cycle busy = in.count * config_.project_cycles(frame.projection.rule);
-            projector_.work(busy, stats_.project_busy);
-            stats_.gaussians += in.count;
-            projected_.reserve(projector_);
-            projected_.put_at(projector_, result, read_sh(f, in, result));
+    const std::uint64_t chunk = config_.chunk;
+    for (std::uint32_t f = 0; job_.has_frame(projector_, f); f += job_.views) {
+        const std::uint64_t total = job_.frames[f]->gaussians;
+        for (std::uint64_t first = chunk * index_; first < total; first += chunk * config_.count) {
+            project_views(fetched_.get(projector_));
         }
     }
     projector_.finish();
 }
 
-Completion ProjectionUnit::read_sh(std::uint32_t f, const Chunk& chunk,
-                                   const ProjectedChunk& visible) {
-    const FrameWorkload& frame = *job_.frames[f];
+void ProjectionUnit::project_views(const Chunk& chunk) {
+    const bool together = job_.views > 1 && config_.shared_by_views >= ViewSharing::Sh;
+    stats_.gaussians += chunk.count;
+    for (std::uint32_t v = 0; v < job_.views; ++v) {
+        ProjectedChunk& view = views_[v];
+        view = seen_in(chunk.frame + v, chunk);
+        const ProjectionRule rule = job_.frames[view.frame]->projection.rule;
+        const Cycle busy = chunk.count * config_.project_cycles(rule);
+        projector_.work(busy, stats_.project_busy);
+        if (!together) {
+            projected_.reserve(projector_);
+            const std::uint32_t* const gaussians =
+                job_.frames[view.frame]->visible_of.data() + view.first_visible;
+            projected_.put_at(projector_, view, read_sh(chunk, gaussians, view.visible));
+        }
+    }
+    if (together) {
+        hand_over_together(chunk);
+    }
+}
+
+ProjectedChunk ProjectionUnit::seen_in(std::uint32_t view, const Chunk& chunk) const {
+    const FrameWorkload& frame = *job_.frames[view];
+    ProjectedChunk seen;
+    seen.frame = view;
+    seen.first_visible = frame.visible_among(chunk.first);
+    seen.visible = frame.visible_among(chunk.first + chunk.count) - seen.first_visible;
+    seen.colours = seen.visible;
+    seen.tile_pairs = job_.pairs_before(view, seen.first_visible + seen.visible) -
+                      job_.pairs_before(view, seen.first_visible);
+    return seen;
+}
+
+// Which Gaussians any view shows is known when the last one has been projected.
+void ProjectionUnit::hand_over_together(const Chunk& chunk) {
+    collect_seen();
+    if (config_.shared_by_views == ViewSharing::Colour) {
+        for (ProjectedChunk& view : views_) {
+            view.colours = 0;
+        }
+        views_.front().colours = static_cast<std::uint32_t>(seen_.size());
+    }
+    projected_.reserve(projector_);
+    const Completion ready = read_sh(chunk, seen_.data(), seen_.size());
+    for (const ProjectedChunk& view : views_) {
+        projected_.put_at(projector_, view, ready);
+    }
+}
+
+void ProjectionUnit::collect_seen() {
+    seen_.clear();
+    for (const ProjectedChunk& view : views_) {
+        const std::uint32_t* const first =
+            job_.frames[view.frame]->visible_of.data() + view.first_visible;
+        const auto middle = static_cast<std::ptrdiff_t>(seen_.size());
+        seen_.insert(seen_.end(), first, first + view.visible);
+        std::inplace_merge(seen_.begin(), seen_.begin() + middle, seen_.end());
+    }
+    seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
+}
+
+Completion ProjectionUnit::read_sh(const Chunk& chunk, const std::uint32_t* gaussians,
+                                   std::size_t count) {
     if (traffic_.sh == ShReads::All) {
-        const std::uint64_t record = traffic_.sh_size(frame.sh_degree);
-        const std::uint64_t array = job_.map(f, traffic_).sh;
+        const std::uint64_t record = traffic_.sh_size(job_.frames[chunk.frame]->sh_degree);
+        const std::uint64_t array = job_.map(chunk.frame, traffic_).sh;
         return sh.read(projector_, array + chunk.first * record, chunk.count * record);
     }
-    ScatteredRecords records = job_.sh_records(
-        f, traffic_, frame.visible_of.data() + visible.first_visible, visible.visible);
+    ScatteredRecords records = job_.sh_records(chunk.frame, traffic_, gaussians, count);
     records.neighbours_share = true;
     return sh.read(projector_, records);
 }
 
 void ProjectionUnit::shade() {
     const Cycle cycles = config_.cycles_per_colour;
-    for (std::uint32_t f = 0; job_.has_frame(shader_, f); ++f) {
-        const std::uint64_t chunk = config_.chunk;
-        for (std::uint64_t first = chunk * index_; first < job_.frames[f]->gaussians;
-             first += chunk * config_.count) {
-            const ProjectedChunk in = projected_.get(shader_);
-            const Cycle busy = in.visible * cycles;
-            shader_.work(busy, stats_.shade_busy);
-            stats_.visible += in.visible;
-            out->put(shader_, in);
+    const std::uint64_t chunk = config_.chunk;
+    for (std::uint32_t f = 0; job_.has_frame(shader_, f); f += job_.views) {
+        const std::uint64_t total = job_.frames[f]->gaussians;
+        for (std::uint64_t first = chunk * index_; first < total; first += chunk * config_.count) {
+            for (std::uint32_t v = 0; v < job_.views; ++v) {
+                const ProjectedChunk in = projected_.get(shader_);
+                const Cycle busy = in.colours * cycles;
+                shader_.work(busy, stats_.shade_busy);
+                stats_.visible += in.visible;
+                out->put(shader_, in);
+            }
         }
     }
     shader_.finish();

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <systemc>
 
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/traffic.hpp"
+#include "modules/kit/job/view_sharing.hpp"
 #include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
@@ -16,8 +18,9 @@ namespace degs {
 /// Reads Gaussians, culls and projects them, then reads the SH of the visible ones and shades them
 /// (paper Table I, "Projection Unit"); with `traffic.sh: all` it also reads the SH of culled ones.
 /// Chunks of the scene go round the units. Three overlapping steps, each with its own date: fetch
-/// geometry, project, shade. Not modelled: the arithmetic pipeline's depth beyond `latency_cycles`;
-/// values come from the shared FrameWorkload.
+/// geometry, project, shade. The views of a frame go through each step chunk by chunk, one view
+/// behind the other, with what they share read once. Not modelled: the arithmetic pipeline's depth
+/// beyond `latency_cycles`; values come from the shared FrameWorkload.
 class ProjectionUnit : public sc_core::sc_module {
 public:
     struct Config {
@@ -29,6 +32,7 @@ public:
         int unscented_passes = 4;    ///< of a Gaussian, by the ratio of operations
         int cycles_per_colour = 1;   ///< SH evaluation initiation interval
         int latency_cycles = 32;     ///< projection pipeline
+        ViewSharing shared_by_views = ViewSharing::Sh;
         void describe(ConfigVisitor& visitor);
         /// Cycles that a unit takes to project a Gaussian.
         int project_cycles(ProjectionRule rule) const {
@@ -66,13 +70,21 @@ private:
     void fetch();
     void project();
     void shade();
-    Completion read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible);
+    void project_views(const Chunk& chunk);
+    ProjectedChunk seen_in(std::uint32_t view, const Chunk& chunk) const;
+    /// The views of the chunk, which have been projected, with one read for all of them.
+    void hand_over_together(const Chunk& chunk);
+    void collect_seen();
+    /// The SH of a chunk; if not of all its Gaussians, of those `count`.
+    Completion read_sh(const Chunk& chunk, const std::uint32_t* gaussians, std::size_t count);
 
     Config config_;
     TrafficConfig traffic_;
     const RenderJob& job_;
     int index_;
     std::uint32_t frames_in_flight_;
+    std::vector<ProjectedChunk> views_; // of the chunk that is projected
+    std::vector<std::uint32_t> seen_;   // Gaussians of it that any view shows
     Process fetcher_, projector_, shader_;
     DatedFifo<Chunk> fetched_;
     DatedFifo<ProjectedChunk> projected_;

@@ -48,7 +48,7 @@ TileBinner::TileBinner(const sc_core::sc_module_name& name, const Config& config
                        ListChanges& changes, int chunk, std::size_t inputs, std::size_t outputs)
     : sc_core::sc_module(name), in("in", inputs), out("out", outputs), splats("splats", time),
       lists("lists", time), config_(config), traffic_(traffic), job_(job), changes_(changes),
-      list_writes_(traffic, config.entries),
+      views_(job.views, {{}, ListWrites(traffic, config.entries)}),
       follows_entries_(config.entries != ListWriting::Stream || config.keep_lists), chunk_(chunk),
       self_(time), acknowledged_(config.writes_in_flight, 0) {
     if (config.entries != ListWriting::Stream) {
@@ -77,29 +77,41 @@ std::uint64_t TileBinner::sram_bytes_moved() const {
 }
 
 void TileBinner::run() {
-    for (std::uint32_t f = 0; job_.has_frame(self_, f); ++f) {
-        const MemoryMap map = job_.map(f, traffic_);
-        if (follows_entries_) {
-            changes_.mark(f, written_);
-            list_writes_.begin(*job_.frames[f], written_);
+    const std::uint32_t views = job_.views;
+    for (std::uint32_t f = 0; job_.has_frame(self_, f); f += views) {
+        for (std::uint32_t v = 0; v < views; ++v) {
+            begin(f + v, views_[v]);
         }
         const std::uint64_t chunks = (job_.frames[f]->gaussians + chunk_ - 1) / chunk_;
         for (std::uint64_t c = 0; c < chunks; ++c) {
-            bin(in[c % in.size()]->get(self_), map);
+            for (View& view : views_) {
+                bin(in[c % in.size()]->get(self_), view);
+            }
         }
-        flush(waiting_, map);
-        self_.wait_for_memory(last_write_); // lists are read back from memory: they must be there
-        stats_.frame_binned = self_.local();
-        frames_binned_.push_back(self_.local());
-        frames_binned_.drop_before(job_.frames.first());
-        for (auto& port : out) {
-            port->put(self_, f);
+        for (std::uint32_t v = 0; v < views; ++v) {
+            flush(views_[v].waiting, views_[v]);
+            self_.wait_for_memory(last_write_); // lists are read back from memory
+            stats_.frame_binned = self_.local();
+            frames_binned_.push_back(self_.local());
+            frames_binned_.drop_before(job_.frames.first());
+            for (auto& port : out) {
+                port->put(self_, f + v);
+            }
         }
     }
     self_.finish();
 }
 
-void TileBinner::bin(const ProjectedChunk& chunk, const MemoryMap& map) {
+void TileBinner::begin(std::uint32_t frame, View& view) {
+    view.map = job_.map(frame, traffic_);
+    if (follows_entries_) {
+        changes_.mark(frame, written_);
+        view.writes.begin(*job_.frames[frame], written_);
+    }
+}
+
+void TileBinner::bin(const ProjectedChunk& chunk, View& view) {
+    const MemoryMap& map = view.map;
     const Cycle rate = config_.pairs_per_cycle;
     const Cycle busy = std::max<Cycle>(1, (chunk.tile_pairs + rate - 1) / rate);
     stats_.pairs += chunk.tile_pairs;
@@ -108,12 +120,12 @@ void TileBinner::bin(const ProjectedChunk& chunk, const MemoryMap& map) {
     const Completion splats_done = write_splats(chunk, map);
     if (config_.entries != ListWriting::Stream) {
         acknowledge(splats_done);
-        take_entries(chunk, map);
+        take_entries(chunk, view);
         return;
     }
-    const std::uint64_t first = entries_before(chunk.frame, chunk.first_visible);
+    const std::uint64_t first = entries_before(chunk.frame, view, chunk.first_visible);
     const std::uint64_t count =
-        entries_before(chunk.frame, chunk.first_visible + chunk.visible) - first;
+        entries_before(chunk.frame, view, chunk.first_visible + chunk.visible) - first;
     const std::uint64_t entry = traffic_.list_entry_bytes;
     acknowledge(latest(splats_done, lists.write(self_, map.lists + first * entry, count * entry)));
 }
@@ -133,27 +145,29 @@ void TileBinner::acknowledge(const Completion& write) {
     last_write_ = latest(last_write_, write);
 }
 
-void TileBinner::take_entries(const ProjectedChunk& chunk, const MemoryMap& map) {
-    waiting_ += entries_before(chunk.frame, chunk.first_visible + chunk.visible) -
-                entries_before(chunk.frame, chunk.first_visible);
+void TileBinner::take_entries(const ProjectedChunk& chunk, View& view) {
+    view.waiting += entries_before(chunk.frame, view, chunk.first_visible + chunk.visible) -
+                    entries_before(chunk.frame, view, chunk.first_visible);
     if (config_.entries == ListWriting::Entries) {
-        flush(waiting_, map);
+        flush(view.waiting, view);
         return;
     }
-    const std::uint64_t room = std::max(1, config_.buffer_bytes / 2 / traffic_.list_entry_bytes);
-    while (waiting_ > room) {
-        flush(room, map);
+    const std::uint64_t half = config_.buffer_bytes / 2 / traffic_.list_entry_bytes;
+    const std::uint64_t room = std::max<std::uint64_t>(1, half / views_.size());
+    while (view.waiting > room) {
+        flush(room, view);
     }
 }
 
 // A burst takes the time of as many entries as fit into it, however many it has. Single entries
 // take the time that binning them has taken, too; a buffer is emptied while its other half fills.
-void TileBinner::flush(std::uint64_t entries, const MemoryMap& map) {
+void TileBinner::flush(std::uint64_t entries, View& view) {
     if (entries == 0) {
         return;
     }
-    waiting_ -= entries;
-    const ListWrites::Batch& batch = list_writes_.next(entries);
+    view.waiting -= entries;
+    const MemoryMap& map = view.map;
+    const ListWrites::Batch& batch = view.writes.next(entries);
     stats_.entries += entries;
     stats_.groups += batch.tiles.size();
     stats_.bursts += batch.bursts.size();
@@ -174,8 +188,9 @@ void TileBinner::flush(std::uint64_t entries, const MemoryMap& map) {
     ends.stride = ends.bytes = kListHeadBytes;
     ends.burst = traffic_.burst_bytes;
     far_heads_.clear();
+    const std::size_t near_heads = config_.head_bytes / kListHeadBytes / views_.size();
     for (const std::uint32_t tile : batch.tiles) {
-        if (tile >= static_cast<std::uint32_t>(config_.head_bytes / kListHeadBytes)) {
+        if (tile >= near_heads) {
             far_heads_.push_back(tile);
         }
     }

@@ -21,6 +21,7 @@ namespace degs {
 /// not name this block, but some unit has to write the lists. Where they are not a stream, entries
 /// wait in half of a buffer until it is full, and go to the ends of their lists while the other
 /// half fills; ends of lists that do not fit the chip are read from memory before and written back.
+/// Views that are read together take turns chunk by chunk; each has its share of both memories.
 class TileBinner : public sc_core::sc_module {
 public:
     struct Config {
@@ -73,15 +74,23 @@ public:
 
 private:
     void end_of_elaboration() override;
+    /// A view whose lists are made.
+    struct View {
+        MemoryMap map;
+        ListWrites writes;
+        std::uint64_t waiting = 0; ///< entries in the buffer
+    };
     void run();
-    void bin(const ProjectedChunk& chunk, const MemoryMap& map);
+    void begin(std::uint32_t frame, View& view);
+    void bin(const ProjectedChunk& chunk, View& view);
     Completion write_splats(const ProjectedChunk& chunk, const MemoryMap& map);
     /// Takes the entries of a chunk, and flushes the buffer as often as it becomes full.
-    void take_entries(const ProjectedChunk& chunk, const MemoryMap& map);
-    void flush(std::uint64_t entries, const MemoryMap& map);
+    void take_entries(const ProjectedChunk& chunk, View& view);
+    void flush(std::uint64_t entries, View& view);
     /// Entries that chunks of the frame write before a visible Gaussian.
-    std::uint64_t entries_before(std::uint32_t frame, std::uint32_t visible) const {
-        return follows_entries_ ? list_writes_.entries_before(visible)
+    std::uint64_t entries_before(std::uint32_t frame, const View& view,
+                                 std::uint32_t visible) const {
+        return follows_entries_ ? view.writes.entries_before(visible)
                                 : job_.pairs_before(frame, visible);
     }
     void acknowledge(const Completion& write);
@@ -90,10 +99,9 @@ private:
     TrafficConfig traffic_;
     const RenderJob& job_;
     ListChanges& changes_;
-    ListWrites list_writes_;
+    std::vector<View> views_;              // that are read together
     bool follows_entries_;                 // other than that all are written, as a stream
-    std::vector<bool> written_;            // of the frame's entries
-    std::uint64_t waiting_ = 0;            // entries in the buffer
+    std::vector<bool> written_;            // of a frame's entries
     Cycle drained_ = 0;                    // when the other half of the buffer is empty
     std::vector<std::uint32_t> far_heads_; // tiles of a flush whose heads are in memory
     std::uint64_t chunk_;                  // Gaussians per chunk

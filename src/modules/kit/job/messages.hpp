@@ -31,6 +31,7 @@ struct ProjectedChunk {
     std::uint32_t frame = 0;
     std::uint32_t first_visible = 0; ///< rank among the frame's visible Gaussians in scene order
     std::uint32_t visible = 0;
+    std::uint32_t colours = 0;    ///< evaluated for it; others came with an earlier view
     std::uint64_t tile_pairs = 0; ///< tiles touched by these splats, summed
 };
 

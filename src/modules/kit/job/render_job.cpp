@@ -93,6 +93,14 @@ void RenderJob::retire_before(std::uint32_t frame) {
     bases.drop_before(first);
 }
 
+MemoryMap RenderJob::map(std::uint32_t frame, const TrafficConfig& traffic) const {
+    MemoryMap map(traffic, *frames[frame], bases[frame]);
+    for (std::uint32_t before = frame - frame % views; before < frame; ++before) {
+        map.move_behind(traffic, *frames[before]);
+    }
+    return map;
+}
+
 ScatteredRecords RenderJob::splat_records(std::uint32_t frame, const TrafficConfig& traffic,
                                           const std::uint32_t* splats, std::size_t count) const {
     const MemoryMap at = map(frame, traffic);
@@ -120,7 +128,7 @@ ScatteredRecords RenderJob::visible_records(std::uint32_t frame, const TrafficCo
 ScatteredRecords RenderJob::sh_records(std::uint32_t frame, const TrafficConfig& traffic,
                                        const std::uint32_t* gaussians, std::size_t count) const {
     const FrameWorkload& work = *frames[frame];
-    const MemoryMap at = map(frame, traffic);
+    const MemoryMap at(traffic, work, bases[frame]); // of the scene, which all views share
     ScatteredRecords records;
     records.base = at.sh;
     records.stride = records.bytes = traffic.sh_size(work.sh_degree);

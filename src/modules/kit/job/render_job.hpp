@@ -95,6 +95,9 @@ struct RenderJob {
     KeptList<std::vector<std::uint64_t>> pair_prefix;
     /// Per frame: where its streams live, if not where MemoryMap puts them.
     KeptList<MemoryBases> bases;
+    /// Consecutive frames that are the views of one frame and whose Gaussians are read together.
+    /// Frames that join one by one are views of none.
+    std::uint32_t views = 1;
     /// Memory holds nothing of frames before this one: the accelerator was reset, or gave one up.
     std::uint32_t first_since_reset = 0;
     /// Set if slots are recorded with their dates and tiles.
@@ -110,9 +113,10 @@ struct RenderJob {
     SlotPart* record_part(int width) const {
         return recorder == nullptr ? nullptr : &recorder->add_part(width);
     }
+    /// Whether there are more than that, views that are read together counted as one.
     bool has_more_frames_than(int count) const {
         const std::size_t limit = count;
-        return frames.size() > limit;
+        return frames.size() > limit * views;
     }
     /// Which of several like sorting units makes the list of a tile that has joined. They take
     /// turns, anew in each frame, so that a frame does not depend on those before it.
@@ -125,9 +129,8 @@ struct RenderJob {
         const int own = bases[frame].pixel_bytes;
         return own != 0 ? own : traffic.pixel_bytes;
     }
-    MemoryMap map(std::uint32_t frame, const TrafficConfig& traffic) const {
-        return MemoryMap(traffic, *frames[frame], bases[frame]);
-    }
+    /// Views that are read together have records, lists and pixels one behind the other.
+    MemoryMap map(std::uint32_t frame, const TrafficConfig& traffic) const;
     /// The records of `count` splats; of `count` visible Gaussians in scene order from rank `first`
     /// on, which lie one behind the other in RecordOrder::Index only; the SH of `count` Gaussians.
     /// All views are of the frame's own tables and of the numbers that are handed in.

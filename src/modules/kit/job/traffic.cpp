@@ -90,6 +90,14 @@ MemoryMap::MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame,
     list_heads = lists + aligned(times(frame.tile_pairs(), traffic.list_entry_bytes));
 }
 
+void MemoryMap::move_behind(const TrafficConfig& traffic, const FrameWorkload& view) {
+    const std::uint64_t bytes =
+        workspace_bytes(traffic, view) + aligned(times(view.camera.pixels(), traffic.pixel_bytes));
+    for (std::uint64_t* const region : {&splats, &lists, &list_heads, &frame_buffer}) {
+        *region += bytes;
+    }
+}
+
 std::uint64_t MemoryMap::workspace_bytes(const TrafficConfig& traffic, const FrameWorkload& frame) {
     // Behind the lists is room for a second copy of them (the groups of GCC), or for their heads.
     const std::uint64_t lists = times(frame.tile_pairs(), traffic.list_entry_bytes);

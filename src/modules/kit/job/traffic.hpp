@@ -63,6 +63,8 @@ struct MemoryMap {
     MemoryMap() = default;
     MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame,
               const MemoryBases& bases = {});
+    /// Moves all but the scene behind what an earlier view has.
+    void move_behind(const TrafficConfig& traffic, const FrameWorkload& view);
     /// Bytes from the first splat record to the end of the lists and their heads.
     static std::uint64_t workspace_bytes(const TrafficConfig& traffic, const FrameWorkload& frame);
 };
