@@ -27,9 +27,9 @@ Share share_of(const AcceleratorResult& run, std::size_t parts) {
         sum.bytes_read += rate_of(stream.bytes_read, 1);
         sum.bytes_written += rate_of(stream.bytes_written, 1);
     }
-    const auto count = static_cast<double>(parts);
-    return {static_cast<double>(run.cycles) / count, sum.bytes_read / count,
-            sum.bytes_written / count, run.energy.total_nj() / count};
+    const double count = rate_of(parts, 1);
+    return {ratio_of(run.cycles, parts), sum.bytes_read / count, sum.bytes_written / count,
+            run.energy.total_nj() / count};
 }
 
 ordered_json share_json(const Share& share) {

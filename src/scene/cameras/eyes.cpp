@@ -14,10 +14,12 @@ std::vector<Camera> eyes_of(const Camera& middle, double distance) {
 
 glm::dvec3 middle_of(const std::vector<Camera>& cameras) {
     glm::dvec3 sum(0.0);
+    double count = 0;
     for (const Camera& camera : cameras) {
         sum += camera.position;
+        ++count;
     }
-    return sum / static_cast<double>(cameras.size());
+    return sum / count;
 }
 
 } // namespace degs

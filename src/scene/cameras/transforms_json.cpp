@@ -10,12 +10,12 @@
 #include "scene/cameras/json_entry.hpp"
 #include "scene/cameras/lens_terms.hpp"
 #include "scene/files/input_file.hpp"
+#include "splat/model/angles.hpp"
 
 namespace degs {
 namespace {
 
 constexpr int kAssumedSide = 800; // px; the images of NeRF's synthetic scenes, which name no size
-constexpr double kPi = 3.14159265358979323846;
 const char* const kTransformsFile =
     "transforms.json is an object with the cameras' intrinsics and an array 'frames'";
 const std::vector<const char*> kLensKeys{"w",
