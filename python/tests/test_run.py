@@ -148,6 +148,12 @@ def test_where_the_program_is(monkeypatch, tmp_path):
     assert degs.program() == real
 
 
+def test_views_share_a_frame():
+    eyes = degs.run("degs-64", SCENE, width=32, eyes=0.1, units_per_metre=2)
+    assert eyes.views.count == 2
+    assert degs.run("degs-64", SCENE, width=32, views=[0, 2, 1]).views.count == 3
+
+
 def test_a_program_that_dies(monkeypatch, tmp_path):
     for script, sentence in (("kill -9 $$", "ended by the signal SIGKILL"), ("exit 3", "exit code 3"),
                              ("echo 'degs: Memory ran out.' >&2; exit 1", "^Memory ran out.$")):

@@ -39,7 +39,7 @@ std::vector<Pose> sampled(const std::vector<Pose>& poses, double hz,
     constexpr double kSlack = 1e-9; // of the last date
     const int count = checked_count(std::floor(seconds * hz + kSlack) + 1, most);
     std::vector<Pose> views;
-    views.reserve(static_cast<std::size_t>(count));
+    views.reserve(count);
     for (int k = 0; k < count; ++k) {
         views.push_back(pose_at(poses, poses.front().time_s + k / hz));
     }

@@ -125,6 +125,7 @@ void estimate(const RunOptions& options) {
 std::vector<Reference> references_of(const std::vector<FrameWorkload>& workloads,
                                      const RunRequest& request, CachedView& view) {
     std::vector<Reference> references;
+    references.reserve(request.views);
     for (int v = 0; v < request.views; ++v) {
         references.push_back(view.reference(workloads[v]));
     }
