@@ -154,10 +154,11 @@ void ProjectionStage::project() {
     for (ViewsLeft left(job_, granted_); left.any();) {
         const SplatChunk group = fetched_.get(projector_);
         left.take(group);
-        const FrameWorkload& frame = job_.frame_of(job_.tiles[group.tile]);
-        const Cycle busy =
-            ceil_div(group.count, units) * config_.project_cycles(frame.projection.rule);
-        projector_.work(busy, stats_.busy);
+        if (group.count != 0) { // the end of granted views has no tile
+            const FrameWorkload& frame = job_.frame_of(job_.tiles[group.tile]);
+            const Cycle each = config_.project_cycles(frame.projection.rule);
+            projector_.work(ceil_div(group.count, units) * each, stats_.busy);
+        }
         stats_.shapes += group.count;
         out->put(projector_, group);
     }
