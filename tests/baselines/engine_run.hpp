@@ -39,7 +39,7 @@ public:
         EXPECT_EQ(engine_->finished_tiles(), job_.tiles.size());
         expect_laws(result(), pes_);
     }
-    void expect_reference() const { expect_reference_pixels(job_, result().slots[Slot::Useful]); }
+    void expect_reference() const { expect_reference_pixels(job_, result().fragments()); }
     /// Every number of the result in words, to compare runs by.
     std::string words() const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views through lenses in accelerators whose useful slots are fragments (of ORANGE they are not):
-// the fidelities agree, images are the reference's, and the projection takes as long as its passes.
+// Views through lenses in all accelerators: the fidelities agree, images are the reference's, and the
+// projection takes as long as its passes.
 #include <algorithm>
 #include <tuple>
 
@@ -79,7 +79,7 @@ std::string lens_row_name(const ::testing::TestParamInfo<LensRow>& row) {
 
 INSTANTIATE_TEST_SUITE_P(All, LensesOfDesigns,
                          ::testing::Combine(::testing::Values("degs-64", "gscore-64", "gbu-64",
-                                                              "gcc-64"),
+                                                              "gcc-64", "orange-o1"),
                                             ::testing::Values(2U, 8U)),
                          lens_row_name);
 
