@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views through lenses in all accelerators: the fidelities agree, images are the reference's, and the
-// projection takes as long as its passes.
+// Views through lenses in all accelerators: the fidelities agree, images are the reference's, and
+// the projection takes as long as its passes.
 #include <algorithm>
 #include <tuple>
 
