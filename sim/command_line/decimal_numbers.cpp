@@ -52,10 +52,15 @@ constexpr std::pair<const char*, std::string (*)(std::string&)> kChecks[] = {
     {"INT", check_integer}, {"UINT", check_unsigned}, {"FLOAT", check_real}};
 
 void require_decimal(CLI::Option& option) {
-    const std::string type = option.get_type_name(); // "INT", or "INT:INT in [1 - 64]"
+    // "INT", "INT:INT in [1 - 64]", or "METRES:FLOAT in [0 - 10]" where the option has a word of
+    // its own.
+    const std::string type = option.get_type_name();
+    const std::size_t colon = std::min(type.find(':'), type.size());
     for (const auto& [name, check] : kChecks) {
-        if (type.substr(0, type.find(':')) == name) {
+        if (type.substr(0, colon) == name ||
+            type.compare(colon, std::string(name).size() + 2, std::string(":") + name + " ") == 0) {
             option.transform(CLI::Validator(check, ""));
+            return;
         }
     }
 }

@@ -50,6 +50,8 @@ TEST(HostileNumbers, RealNumbersAreFinite) {
             {{"soc"}, "--load"},
             {{"soc"}, "--refresh"},
             {{"run", "--frames", "2"}, "--path-step"},
+            {{"run"}, "--eyes"},
+            {{"run", "--eyes", "0.1"}, "--units-per-metre"},
             {{"compare", "--frames", "2"}, "--path-step"}};
         for (const auto& [head, option] : commands) {
             std::vector<std::string> arguments = head;
