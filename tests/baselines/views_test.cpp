@@ -16,8 +16,8 @@ namespace {
 
 using test::EngineRun;
 
-constexpr int kGaussians = 900; // several chunks for every unit, the last one not full
-constexpr double kApart = 0.7;  // scene units; some Gaussians are in one view alone
+constexpr int kGaussians = 900;     // several chunks for every unit, the last one not full
+constexpr double kViewsApart = 0.7; // scene units; some Gaussians are in one view alone
 
 Camera head() {
     Camera camera;
@@ -134,9 +134,9 @@ struct Views {
     }
 };
 
-using Row = std::tuple<const char*, const char*, int>; // design, sharing, views
+using ViewsRow = std::tuple<const char*, const char*, int>; // design, sharing, views
 
-class SmallRunViews : public ::testing::TestWithParam<Row> {
+class SmallRunViews : public ::testing::TestWithParam<ViewsRow> {
 protected:
     std::string file = std::get<0>(GetParam()), shared = std::get<1>(GetParam());
     int count = std::get<2>(GetParam());
@@ -156,7 +156,7 @@ TEST_P(SmallRunViews, AtOnePlaceReadWhatTheyShareOnce) {
 }
 
 TEST_P(SmallRunViews, ApartHaveTheirOwnImagesAndShareTheScene) {
-    const Views views(file, keys, row_of(count, kApart));
+    const Views views(file, keys, row_of(count, kViewsApart));
     views.expect_laws();
     const AcceleratorResult all = views.together->result(), one = views.alone[0]->result();
     const std::uint64_t times = count;
@@ -174,7 +174,7 @@ TEST_P(SmallRunViews, ApartHaveTheirOwnImagesAndShareTheScene) {
     }
 }
 
-std::string row_name(const ::testing::TestParamInfo<Row>& row) {
+std::string row_name(const ::testing::TestParamInfo<ViewsRow>& row) {
     std::string name = std::string(std::get<0>(row.param)) + "_" + std::get<1>(row.param) + "_" +
                        std::to_string(std::get<2>(row.param));
     std::replace(name.begin(), name.end(), '-', '_');
@@ -197,7 +197,8 @@ class SmallRunViewsUnshared : public ::testing::TestWithParam<const char*> {};
 // Without sharing a frame of two views is two frames, to the cycle.
 TEST_P(SmallRunViewsUnshared, AreFrames) {
     const Design design = design_of(GetParam(), {sharing_key(GetParam()) + "=nothing"});
-    const std::vector<FrameWorkload> frames = frames_of(row_of(4, kApart), design.accelerator());
+    const std::vector<FrameWorkload> frames =
+        frames_of(row_of(4, kViewsApart), design.accelerator());
     const EngineRun views("views", design.accelerator(), pointers(frames), Fidelity::Exact,
                           BuildOptions(), 2);
     const EngineRun path("frames", design.accelerator(), pointers(frames));
@@ -211,7 +212,8 @@ INSTANTIATE_TEST_SUITE_P(All, SmallRunViewsUnshared,
 // Two frames of two views: the second waits for both views of the first.
 TEST(SmallRunViewsTogether, WaitForTheFrameBefore) {
     const Design design = design_of("degs-64", {"frames_in_flight=1"});
-    const std::vector<FrameWorkload> frames = frames_of(row_of(4, kApart), design.accelerator());
+    const std::vector<FrameWorkload> frames =
+        frames_of(row_of(4, kViewsApart), design.accelerator());
     const EngineRun exact("exact", design.accelerator(), pointers(frames), Fidelity::Exact,
                           BuildOptions(), 2);
     const EngineRun strict("strict", design.accelerator(), pointers(frames), Fidelity::Strict,
@@ -234,7 +236,7 @@ class SmallRunViewsKept : public ::testing::TestWithParam<const char*> {};
 TEST_P(SmallRunViewsKept, HaveListsOfTheirOwn) {
     const std::string key = std::string("binning.entries=") + GetParam();
     const Design design = design_of("gscore-64", {"binning.keep_lists=true", key});
-    std::vector<Camera> cameras = row_of(2, kApart);
+    std::vector<Camera> cameras = row_of(2, kViewsApart);
     cameras.push_back(cameras[0]); // nobody moves
     cameras.push_back(cameras[1]);
     const std::vector<FrameWorkload> frames = frames_of(cameras, design.accelerator());
@@ -255,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(All, SmallRunViewsKept,
 
 // Colours that views share are evaluated once for each Gaussian that any of them shows.
 TEST(SmallRunViewsTogether, MayShareColours) {
-    const std::vector<Camera> cameras = row_of(2, kApart);
+    const std::vector<Camera> cameras = row_of(2, kViewsApart);
     std::vector<std::unique_ptr<EngineRun>> runs;
     std::vector<std::vector<FrameWorkload>> frames;
     std::vector<Design> designs;
