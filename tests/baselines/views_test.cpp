@@ -174,7 +174,7 @@ TEST_P(SmallRunViews, ApartHaveTheirOwnImagesAndShareTheScene) {
     }
 }
 
-std::string row_name(const ::testing::TestParamInfo<ViewsRow>& row) {
+std::string views_row_name(const ::testing::TestParamInfo<ViewsRow>& row) {
     std::string name = std::string(std::get<0>(row.param)) + "_" + std::get<1>(row.param) + "_" +
                        std::to_string(std::get<2>(row.param));
     std::replace(name.begin(), name.end(), '-', '_');
@@ -185,12 +185,12 @@ INSTANTIATE_TEST_SUITE_P(
     Tiled, SmallRunViews,
     ::testing::Combine(::testing::Values("degs-64", "gscore-64", "gbu-64", "orange-o1"),
                        ::testing::Values("nothing", "geometry", "sh"), ::testing::Values(2, 3)),
-    row_name);
+    views_row_name);
 INSTANTIATE_TEST_SUITE_P(Gcc, SmallRunViews,
                          ::testing::Combine(::testing::Values("gcc-64"),
                                             ::testing::Values("nothing", "geometry"),
                                             ::testing::Values(2, 3)),
-                         row_name);
+                         views_row_name);
 
 class SmallRunViewsUnshared : public ::testing::TestWithParam<const char*> {};
 
