@@ -36,7 +36,7 @@ public:
         int entries_per_cycle = 8; ///< list entries written per cycle
         int writes_in_flight = 8;  ///< requests not yet acknowledged
         Lists lists = Lists::Direct;
-        ViewSharing shared_by_views = ViewSharing::Geometry; ///< that at most
+        ViewSharing shared_by_views = ViewSharing::Geometry; ///< GCC cannot share more
         void describe(ConfigVisitor& visitor);
     };
     struct Stats {

@@ -14,11 +14,7 @@ void ProjectionStage::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("group", group, 1, 4096, "Gaussians per depth group; about 256 [unverified]");
     visitor.integer("groups_ahead", groups_ahead, 1, 64,
                     "groups between two steps of Stages II and III [assumed]");
-    visitor.integer("cycles_per_gaussian", cycles_per_gaussian, 1, 1024,
-                    "cycles per Gaussian and unit, so that bandwidth limits [assumed]");
-    visitor.integer("unscented_passes", unscented_passes, 1, 1024,
-                    "of a Gaussian through a unit with pipeline.rules.projection: unscented, as "
-                    "its 666 operations to the 167 of linear [assumed]");
+    ProjectionRate::describe(visitor);
     visitor.integer("latency_cycles", latency_cycles, 1, 4096,
                     "cycles; depth of the projection pipeline [assumed]");
 }

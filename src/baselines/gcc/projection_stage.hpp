@@ -7,6 +7,7 @@
 #include <systemc>
 
 #include "baselines/gcc/traffic.hpp"
+#include "modules/kit/front_end/projection_rate.hpp"
 #include "modules/kit/job/messages.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "stats/statistics.hpp"
@@ -23,18 +24,12 @@ namespace degs::gcc {
 /// the stage works on all views of the job, or views are granted to it one by one, ascending.
 class ProjectionStage : public sc_core::sc_module {
 public:
-    struct Config {
-        int units = 4;               ///< projection units
-        int group = 256;             ///< Gaussians per group
-        int groups_ahead = 1;        ///< between two steps
-        int cycles_per_gaussian = 1; ///< initiation interval of a unit
-        int unscented_passes = 4;    ///< of a Gaussian, by the ratio of operations
-        int latency_cycles = 32;     ///< projection pipeline
+    struct Config : ProjectionRate {
+        int units = 4;           ///< projection units
+        int group = 256;         ///< Gaussians per group
+        int groups_ahead = 1;    ///< between two steps
+        int latency_cycles = 32; ///< projection pipeline
         void describe(ConfigVisitor& visitor);
-        /// Cycles that a unit takes to project a Gaussian.
-        int project_cycles(ProjectionRule rule) const {
-            return cycles_per_gaussian * (rule == ProjectionRule::Unscented ? unscented_passes : 1);
-        }
     };
     struct Stats {
         Cycle busy = 0;

@@ -214,7 +214,8 @@ TEST(Unscented, HugeSplatsAreLimited) {
     }
 }
 
-// What the lens folds to the wrong side is not drawn.
+// A lens shows nothing beyond the slope at which it folds back, although its polynomial would bend
+// such directions into the image.
 TEST(Unscented, MeansBeyondTheFoldAreCulled) {
     Camera camera = make_camera(64, 48, 20);
     camera.lens = PublishedLens{"", false, {-0.12}}.lens(); // 1.667

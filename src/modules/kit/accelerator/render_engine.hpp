@@ -148,8 +148,8 @@ struct AcceleratorConfig {
     virtual std::vector<cost::ClockLimit> clock_limits() const { return {}; }
     /// The clock that the design can reach.
     cost::ClockEstimate clock() const { return {clock_limits(), cost.logic.fo4_per_ns, clock_ghz}; }
-    /// What the views of a frame have in common; unless it is nothing, their Gaussians are read
-    /// together.
+    /// How much the views of a frame share. With Nothing they are frames of their own; else their
+    /// Gaussians are read together.
     virtual ViewSharing view_sharing() const { return ViewSharing::Nothing; }
     /// How splat records lie in memory.
     virtual RecordOrder record_order() const { return RecordOrder::Index; }

@@ -15,11 +15,7 @@ void ProjectionUnit::Config::describe(ConfigVisitor& visitor) {
                     "geometry requests outstanding per unit; 4 cover 100 ns [assumed]");
     visitor.integer("chunks_ahead", chunks_ahead, 1, 256,
                     "projected chunks of a unit that wait for the binner [assumed]");
-    visitor.integer("cycles_per_gaussian", cycles_per_gaussian, 1, 1024,
-                    "cycles per Gaussian and unit, so that bandwidth limits [assumed]");
-    visitor.integer("unscented_passes", unscented_passes, 1, 1024,
-                    "of a Gaussian through a unit with pipeline.rules.projection: unscented, as "
-                    "its 666 operations to the 167 of linear [assumed]");
+    ProjectionRate::describe(visitor);
     visitor.integer("cycles_per_colour", cycles_per_colour, 1, 1024,
                     "cycles per visible Gaussian for its SH colour [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 4096,

@@ -6,6 +6,7 @@
 
 #include <systemc>
 
+#include "modules/kit/front_end/projection_rate.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/traffic.hpp"
 #include "modules/kit/job/view_sharing.hpp"
@@ -23,21 +24,15 @@ namespace degs {
 /// beyond `latency_cycles`; values come from the shared FrameWorkload.
 class ProjectionUnit : public sc_core::sc_module {
 public:
-    struct Config {
-        int count = 4;               ///< units
-        int chunk = 64;              ///< Gaussians per request and hand-over
-        int chunks_in_flight = 4;    ///< geometry requests outstanding per unit
-        int chunks_ahead = 4;        ///< of the binner
-        int cycles_per_gaussian = 1; ///< projection initiation interval
-        int unscented_passes = 4;    ///< of a Gaussian, by the ratio of operations
-        int cycles_per_colour = 1;   ///< SH evaluation initiation interval
-        int latency_cycles = 32;     ///< projection pipeline
+    struct Config : ProjectionRate {
+        int count = 4;             ///< units
+        int chunk = 64;            ///< Gaussians per request and hand-over
+        int chunks_in_flight = 4;  ///< geometry requests outstanding per unit
+        int chunks_ahead = 4;      ///< of the binner
+        int cycles_per_colour = 1; ///< SH evaluation initiation interval
+        int latency_cycles = 32;   ///< projection pipeline
         ViewSharing shared_by_views = ViewSharing::Sh;
         void describe(ConfigVisitor& visitor);
-        /// Cycles that a unit takes to project a Gaussian.
-        int project_cycles(ProjectionRule rule) const {
-            return cycles_per_gaussian * (rule == ProjectionRule::Unscented ? unscented_passes : 1);
-        }
     };
     struct Stats {
         Cycle project_busy = 0, shade_busy = 0;
