@@ -59,6 +59,8 @@ public:
     }
 
     const Stats& stats() const { return stats_; }
+    /// True if a log or a foreign block looks at what passes.
+    bool attended() const { return attended_; }
     const char* fifo_name() const override { return sc_core::sc_object::name(); }
     Use use() const override {
         return {stats_.items, stats_.occupied_cycles, &stats_.full_cycles, &stats_.empty_cycles};

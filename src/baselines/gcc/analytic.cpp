@@ -133,8 +133,8 @@ WindowMask Clock::visited(const CoarseTile& tile, int row, const CoarseSpan* spa
 }
 
 void Clock::splat(const CoarseTile& tile) {
-    const CoarseSpan* span = tile.spans().data();
-    const CoarseSpan* const end = span + tile.spans().size();
+    const CoarseSpan* span = tile.spans().begin();
+    const CoarseSpan* const end = tile.spans().end();
     for (const int row : tile.blocks()) {
         const CoarseSpan* const first = span;
         while (span != end && span->row < (row + 1) * side_) {

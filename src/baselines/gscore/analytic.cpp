@@ -2,6 +2,7 @@
 // GSCore without simulation: its array takes a slot per sub-tile that a splat's box meets and that
 // is not done. See docs/analytic.md.
 #include <algorithm>
+#include <vector>
 
 #include "baselines/gscore/config.hpp"
 #include "modules/kit/analytic/front_end_load.hpp"
@@ -57,25 +58,39 @@ private:
 class Clock : public TileClock {
 public:
     Clock(const Analytic& model, const FrameWorkload& frame)
-        : model_(model), frame_(frame), grid_(frame.tile_size, model.config().array.side()) {}
+        : model_(model), frame_(frame), grid_(frame.tile_size, model.config().array.side()),
+          boxes_(kBoxes) {}
     void begin(const CoarseTile& tile) override {
         passes_ = scans_ = 0;
         passed_over_ = 0;
         inside_ = grid_.holding(tile.columns(), tile.pixel_rows());
+        live_ = live(tile);
+        changes_ = tile.cell_changes();
     }
     void splat(const CoarseTile& tile) override;
     TileCycles end(const CoarseTile& tile) override;
 
 private:
     SubtileMask live(const CoarseTile& tile) const;
-    SubtileMask named(const CoarseTile& tile, SubtileMask among) const;
+    SubtileMask named(const CoarseTile& tile, SubtileMask among);
+    const OrientedBox& box_of(std::uint32_t splat);
+
+    /// Neighbouring tiles list the same splats: so many boxes are kept.
+    static constexpr std::size_t kBoxes = 1024;
+    struct Box {
+        std::uint32_t splat = ~0U;
+        OrientedBox box;
+    };
 
     const Analytic& model_;
     const FrameWorkload& frame_;
     SubtileGrid grid_;
     SubtileMask inside_ = 0;
-    double passes_ = 0; ///< cycles with a slot
-    double scans_ = 0;  ///< cycles that only pass over splats without one
+    SubtileMask live_ = 0; ///< after cell_changes_ of the tile's cells
+    std::uint64_t changes_ = 0;
+    std::vector<Box> boxes_; ///< by splat modulo their number
+    double passes_ = 0;      ///< cycles with a slot
+    double scans_ = 0;       ///< cycles that only pass over splats without one
     int passed_over_ = 0;
 };
 
@@ -96,11 +111,19 @@ SubtileMask Clock::live(const CoarseTile& tile) const {
     return mask;
 }
 
+const OrientedBox& Clock::box_of(std::uint32_t splat) {
+    Box& place = boxes_[splat % kBoxes];
+    if (place.splat != splat) {
+        place = {splat, OrientedBox(frame_.splats[splat])};
+    }
+    return place.box;
+}
+
 /// Sub-tiles of `among` that the solved splat touches.
-SubtileMask Clock::named(const CoarseTile& tile, SubtileMask among) const {
+SubtileMask Clock::named(const CoarseTile& tile, SubtileMask among) {
     switch (model_.config().array.subtile_skip) {
     case SubtileTest::Obb:
-        return grid_.meeting(OrientedBox(frame_.splats[tile.splat()]), tile.x(), tile.y(), among);
+        return grid_.meeting(box_of(tile.splat()), tile.x(), tile.y(), among);
     case SubtileTest::Exact: {
         SubtileMask mask = 0;
         for (const CoarseSpan& span : tile.spans()) {
@@ -114,7 +137,11 @@ SubtileMask Clock::named(const CoarseTile& tile, SubtileMask among) const {
 }
 
 void Clock::splat(const CoarseTile& tile) {
-    const int subtiles = __builtin_popcount(named(tile, live(tile)));
+    if (changes_ != tile.cell_changes()) {
+        changes_ = tile.cell_changes();
+        live_ = live(tile);
+    }
+    const int subtiles = __builtin_popcount(named(tile, live_));
     passes_ += subtiles;
     const int rate = model_.config().array.skips_per_cycle;
     passed_over_ = subtiles != 0 ? 0 : passed_over_ + 1;

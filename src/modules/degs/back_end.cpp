@@ -152,6 +152,7 @@ void DegsBackEnd::build_spans() {
             auto& rows = ring(span_rings_, "span_buffer", config_.span_lane_depth(), 1);
             slicing_[m * slicers + l % slicers]->out[l / slicers].bind(rows);
             spans_[l % modules]->in[m * (lanes / modules) + l / modules].bind(rows);
+            slicing_[m * slicers + l % slicers]->write_to(l / slicers, *spans_[l % modules]);
         }
     }
     if (config_.parameters_wait()) {

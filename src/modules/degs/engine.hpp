@@ -54,7 +54,7 @@ public:
     /// Null if fetchers read by themselves.
     const SplatSupply* supply() const { return supply_.get(); }
     RingUse gaussian_buffer() const { return use_of(blocks_.gaussian_buffer); }
-    RingUse span_buffer() const { return use_of(blocks_.span_buffer); }
+    RingUse span_buffer() const;
     RingUse crossbar() const;
     RingUse packing_buffer() const;
 

@@ -6,6 +6,7 @@
 
 #include "base/grouped_number.hpp"
 #include "modules/degs/engine.hpp"
+#include "modules/degs/span_engine/drawn_spans.hpp"
 
 namespace degs {
 namespace {
@@ -81,14 +82,21 @@ void Degs::collect_stages(AcceleratorResult& result) const {
               Counters().add(blocks_.slices));
 }
 
+RingUse Degs::span_buffer() const {
+    RingUse use = use_of(blocks_.span_buffer);
+    for (const auto& stage : blocks_.spans) {
+        if (const DrawnSpans* const spans = stage->drawn_spans()) {
+            use += use_of(spans->lane_counts(), 0);
+        }
+    }
+    return use;
+}
+
 RingUse Degs::crossbar() const {
     RingUse use = use_of(blocks_.crossbar);
-    for (const auto& bank : blocks_.banks) {
-        if (const DrawnSpans* const spans = bank->drawn_spans()) {
-            use.items += spans->counts().items;
-            use.full_cycles += spans->counts().full_cycles;
-            use.occupied_cycles += spans->counts().occupied_cycles;
-            use.high_water = std::max(use.high_water, spans->counts().high_water);
+    for (const auto& stage : blocks_.spans) {
+        if (const DrawnSpans* const spans = stage->drawn_spans()) {
+            use += use_of(spans->counts(), 0);
         }
     }
     return use;

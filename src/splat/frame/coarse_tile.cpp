@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "splat/frame/fast_exp.hpp"
-#include "splat/frame/pixel_rules.hpp"
-
 namespace degs {
 namespace {
 
@@ -19,7 +16,8 @@ constexpr std::uint64_t kPrefetched = 6;
 CoarseTile::CoarseTile(const FrameWorkload& frame, const Options& options)
     : frame_(frame), options_(options),
       cells_x_((frame.tile_size + options.cell_width - 1) / options.cell_width),
-      samples_((frame.tile_size + kApart - 1) / kApart), grid_(frame.grid()) {}
+      samples_((frame.tile_size + kApart * kLanes - 1) / (kApart * kLanes) * kLanes),
+      grid_(frame.grid()), prepared_(kPrepared) {}
 
 void CoarseTile::begin(int tile, const RowChoice& choice) {
     const PixelBox whole = grid_.pixels_of(tile), drawn = grid_.drawn_of(tile);
@@ -34,6 +32,8 @@ void CoarseTile::begin(int tile, const RowChoice& choice) {
     choose_rows(choice);
     transmittance_.assign(rows_.size() * samples_, 1.0F);
     cells_.assign(cell_of(pixel_rows_.last, 0) + cells_x_, {});
+    next_cell_end_ = kNever;
+    ++cell_changes_;
     live_in_row_.assign(pixel_rows_.last + 1, 0);
     whole_ = {};
     for (const int row : rows_) {
@@ -71,6 +71,9 @@ void CoarseTile::choose_rows(const RowChoice& choice) {
         }
     }
     rows_from_.push_back(static_cast<int>(rows_.size()));
+    row_values_.assign(rows_.begin(), rows_.end());
+    row_values_.resize(rows_.size() + kLanes - 1);
+    spans_.resize(rows_.size());
     rows_per_drawn_ = static_cast<double>(pixel_rows_.size()) / static_cast<double>(rows_.size());
     blocks_per_drawn_ = static_cast<double>(pixel_rows_.size()) / height_of_blocks;
 }
@@ -104,34 +107,48 @@ bool CoarseTile::next() {
         return false;
     }
     splat_ = frame_.tile_splats[entry_++];
+    if (entry_ > next_cell_end_) {
+        pass_cells();
+    }
     if (entry_ + kPrefetched < end_) {
         const auto* const ahead = &frame_.splats[frame_.tile_splats[entry_ + kPrefetched]];
         __builtin_prefetch(ahead); // what is needed of it lies in two lines of the host's cache
         __builtin_prefetch(&ahead->q_threshold);
     }
-    const ProjectedSplat& s = frame_.splats[splat_];
-    const double inverse_c = 1 / s.cov_c;
+    const Prepared& s = prepared(splat_);
     mu_x_ = static_cast<float>(s.mu_x - x_);
     mu_y_ = static_cast<float>(s.mu_y - y_);
-    inverse_c_ = static_cast<float>(inverse_c);
-    threshold_ = static_cast<float>(s.q_end());
-    opacity_ = static_cast<float>(s.opacity);
-    conic_a_ = static_cast<float>(s.conic_a());
-    slope_ = static_cast<float>(s.cov_b * inverse_c);
-    det_over_c_ = static_cast<float>(s.det * inverse_c);
-    const float reach = std::sqrt(static_cast<float>(s.q_end() * s.cov_c));
+    inverse_c_ = s.inverse_c;
+    threshold_ = s.threshold;
+    opacity_ = s.opacity;
+    conic_a_ = s.conic_a;
+    slope_ = s.slope;
+    det_over_c_ = s.det_over_c;
     const auto least = static_cast<float>(pixel_rows_.first);
     const auto most = static_cast<float>(pixel_rows_.last);
-    first_row_ = static_cast<int>(std::clamp(std::ceil(mu_y_ - reach), least, most + 1));
-    last_row_ = static_cast<int>(std::clamp(std::floor(mu_y_ + reach), least - 1, most));
-    spans_.clear();
-    for (int r = first_drawn(); r < end_drawn(); ++r) {
-        const CoarseSpan span = span_of(rows_[r]);
-        if (span.first <= span.last) {
-            spans_.push_back(span);
-        }
-    }
+    first_row_ = static_cast<int>(std::clamp(std::ceil(mu_y_ - s.reach), least, most + 1));
+    last_row_ = static_cast<int>(std::clamp(std::floor(mu_y_ + s.reach), least - 1, most));
+    solve_rows();
     return true;
+}
+
+const CoarseTile::Prepared& CoarseTile::prepared(std::uint32_t splat) {
+    Prepared& place = prepared_[splat % kPrepared];
+    if (place.splat != splat) {
+        const ProjectedSplat& s = frame_.splats[splat];
+        const double inverse_c = 1 / s.cov_c;
+        place = {splat,
+                 static_cast<float>(inverse_c),
+                 static_cast<float>(s.q_end()),
+                 static_cast<float>(s.opacity),
+                 static_cast<float>(s.conic_a()),
+                 static_cast<float>(s.cov_b * inverse_c),
+                 static_cast<float>(s.det * inverse_c),
+                 std::sqrt(static_cast<float>(s.q_end() * s.cov_c)),
+                 s.mu_x,
+                 s.mu_y};
+    }
+    return place;
 }
 
 CoarseTile::Samples CoarseTile::samples_in(const CoarseSpan& span) const {
@@ -155,42 +172,29 @@ double CoarseTile::live_share(const CoarseSpan& span) const {
     return static_cast<double>(live) / (in.last - in.first + 1);
 }
 
-void CoarseTile::blend() {
-    for (const CoarseSpan& span : spans_) {
-        const Samples in = samples_in(span);
-        float* const row = transmittance_of(span.row);
-        const float dy = static_cast<float>(span.row) - mu_y_;
-        const float q_row = dy * dy * inverse_c_;
-        const float start = static_cast<float>(phase_of(span.row)) - (mu_x_ + slope_ * dy);
-        for (int i = in.first; i <= in.last; ++i) {
-            if (row[i] == 0) {
-                continue;
-            }
-            const float dx = start + static_cast<float>(i * kApart);
-            const float q = conic_a_ * dx * dx + q_row;
-            if (q > threshold_) {
-                continue;
-            }
-            const float alpha =
-                std::min(static_cast<float>(kAlphaMax), opacity_ * fast_exp(-0.5F * q));
-            const float rest = row[i] * (1.0F - alpha);
-            if (rest >= static_cast<float>(kStopTransmittance)) {
-                row[i] = rest;
-                ++blended_;
-            } else {
-                row[i] = 0;
-                end_sample(span.row, phase_of(span.row) + i * kApart);
-            }
-        }
-    }
-}
-
 void CoarseTile::end_sample(int row, int column) {
     --live_in_row_[row];
     const int width = columns_.size(), height = pixel_rows_.size();
     end_sample(whole_, width, height);
-    end_sample(cells_[cell_of(row, column)], std::min(options_.cell_width, width),
-               std::min(options_.cell_height, height));
+    Cell& cell = cells_[cell_of(row, column)];
+    end_sample(cell, std::min(options_.cell_width, width), std::min(options_.cell_height, height));
+    if (cell.live == 0) {
+        ++cell_changes_;
+        if (cell.end >= entry_) {
+            next_cell_end_ = std::min(next_cell_end_, cell.end);
+        }
+    }
+}
+
+// All pixels of some cells have ended with the entry before.
+void CoarseTile::pass_cells() {
+    ++cell_changes_;
+    next_cell_end_ = kNever;
+    for (const Cell& cell : cells_) {
+        if (cell.live == 0 && cell.end >= entry_) {
+            next_cell_end_ = std::min(next_cell_end_, cell.end);
+        }
+    }
 }
 
 /// If pixels end evenly later across a block of so many, in some direction, the last of them ends

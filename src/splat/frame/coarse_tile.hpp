@@ -24,10 +24,19 @@ struct CoarseSpan {
     int length() const { return last - first + 1; }
 };
 
+/// Some of them that lie one behind the other.
+struct CoarseSpans {
+    const CoarseSpan *first = nullptr, *last = nullptr; ///< behind the last one
+    const CoarseSpan* begin() const { return first; }
+    const CoarseSpan* end() const { return last; }
+};
+
 /// Draws some rows of a tile splat by splat, near to far, by the rules of the reference renderer in
 /// single precision, at one column in four. What ends is known per cell, a block of pixels.
 class CoarseTile {
 public:
+    static constexpr int kLanes = 4; ///< rows or samples that the host takes at a time
+
     struct Options {
         int cell_width = 1, cell_height = 1; ///< px, from the upper left corner of a tile
         bool outward = false; ///< spans end at the first pixels outside the ellipse, or on it
@@ -68,7 +77,7 @@ public:
     int first_drawn() const { return rows_from_[first_row_]; }
     int end_drawn() const { return rows_from_[std::max(last_row_ + 1, first_row_)]; }
     /// Drawn rows with a pixel of the span, top to bottom.
-    const std::vector<CoarseSpan>& spans() const { return spans_; }
+    CoarseSpans spans() const { return {spans_.data(), spans_.data() + span_count_}; }
     /// The span of any row of the image, px from the upper left corner of the tile; empty without a
     /// pixel inside the tile's columns.
     CoarseSpan span_of(int row) const;
@@ -83,15 +92,31 @@ public:
         return cell.live != 0 || entry_ <= cell.end;
     }
 
+    /// Changes when a cell may have ended since, and with another tile.
+    std::uint64_t cell_changes() const { return cell_changes_; }
+
     /// Fragments so far, scaled to all pixels.
     double fragments() const { return static_cast<double>(blended_) * kApart * rows_per_drawn_; }
 
 private:
     static constexpr int kApart = 4; ///< px between sampled columns
+    static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+    /// Neighbouring tiles list the same splats: so many are kept.
+    static constexpr std::size_t kPrepared = 1024;
     /// Neighbouring rows have their columns apart; every row has one.
     int phase_of(int row) const {
         return columns_.first + row * 3 % std::min(kApart, columns_.size());
     }
+    /// What all tiles need of a splat.
+    struct Prepared {
+        std::uint32_t splat = ~0U;
+        float inverse_c = 0, threshold = 0, opacity = 0, conic_a = 0, slope = 0, det_over_c = 0;
+        float reach = 0; ///< rows from the mean to the end of the bounding box
+        double mu_x = 0, mu_y = 0;
+    };
+    const Prepared& prepared(std::uint32_t splat);
+    void solve_rows();
+    void pass_cells();
     struct Samples {
         int first, last;
     };
@@ -118,6 +143,7 @@ private:
     double rows_per_drawn_ = 1, blocks_per_drawn_ = 1;
     std::vector<int> blocks_;
     std::vector<int> rows_;                 ///< drawn ones, rising
+    std::vector<float> row_values_;         ///< the same, and behind them whatever
     std::vector<int> rows_from_;            ///< by row: how many of rows_ are above it
     std::vector<std::size_t> place_of_row_; ///< in transmittance_, if the row is drawn
     std::uint64_t begin_ = 0, end_ = 0, entry_ = 0;
@@ -126,12 +152,16 @@ private:
     std::vector<int> live_in_row_;
     Cell whole_; ///< the tile
     std::uint64_t blended_ = 0;
+    std::uint64_t cell_changes_ = 0;
+    std::uint64_t next_cell_end_ = kNever; ///< of cells without a live sample
+    std::vector<Prepared> prepared_;       ///< by number modulo their count
 
     std::uint32_t splat_ = 0;
     float mu_x_ = 0, mu_y_ = 0; ///< px from the tile
     float conic_a_ = 0, slope_ = 0, inverse_c_ = 0, det_over_c_ = 0, threshold_ = 0, opacity_ = 0;
     int first_row_ = 0, last_row_ = -1;
-    std::vector<CoarseSpan> spans_;
+    std::vector<CoarseSpan> spans_; ///< the first span_count_ count
+    std::size_t span_count_ = 0;
 };
 
 /// Means over the entries of the lists.

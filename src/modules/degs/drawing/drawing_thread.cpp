@@ -74,6 +74,7 @@ void DrawingThread::take(TileNumber number, std::uint32_t place, const PixelRang
     }
     if (--from.takes == 0) {
         tile(number)->sheets[place / Sheet::kSplats] = nullptr;
+        asked_[number % kAsked].tile = kNoTile;
         const std::lock_guard<std::mutex> lock(mutex_);
         taken_sheets_.push_back(&from);
         wake_if_useful();
@@ -99,11 +100,16 @@ void DrawingThread::clear_row(TileNumber number, int /*row*/) {
 
 DrawingThread::Sheet& DrawingThread::sheet(TileNumber number, std::uint32_t place) {
     const std::uint32_t index = place / Sheet::kSplats;
+    Asked& asked = asked_[number % kAsked];
+    if (asked.tile == number && asked.index == index) {
+        return *asked.sheet;
+    }
     await(number, index, [this, number, index] {
         const Tile* drawn = tile(number);
         return drawn != nullptr && drawn->ready.load() > index;
     });
-    return *tile(number)->sheets[index];
+    asked = {number, index, tile(number)->sheets[index]};
+    return *asked.sheet;
 }
 
 // A demand is taken back when it is met, because the tile may then be closed at any time.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -68,6 +69,14 @@ private:
         bool passed = false;              // has been closed; for the thread alone
     };
 
+    /// The sheet of a tile that the simulation has asked for last, unless all of it has been taken.
+    struct Asked {
+        TileNumber tile = kNoTile;
+        std::uint32_t index = 0;
+        Sheet* sheet = nullptr;
+    };
+    static constexpr std::size_t kAsked = 16; // tiles that are sliced at once, most often
+
     // The simulation's side.
     void hand_over_joined();
     Tile* tile(TileNumber number) { return slots_[number].open.load(); }
@@ -93,7 +102,8 @@ private:
 
     RenderJob& job_;
     DrawingOptions options_;
-    std::deque<Slot> slots_; // by tile; the simulation adds some
+    std::deque<Slot> slots_;          // by tile; the simulation adds some
+    std::array<Asked, kAsked> asked_; // by tile modulo their number
     double waited_s_ = 0;
 
     TileCanvases canvases_;

@@ -131,15 +131,17 @@ DrawnBank::admits(const BankStream& stream, TileNumber number, std::uint32_t spl
     return !fills_ || features_.filled_by(packet_.next_execution(now_));
 }
 
+template <class Row>
 inline __attribute__((always_inline)) void DrawnBank::start(const BankStream& stream, int row,
-                                                            const DrawnRow& drawn) {
+                                                            const Row& drawn) {
     cut_tile_ = own_[stream.index].entering;
     const Segmenter::Place place = segmenter_.place_of(drawn.x0);
     cut_ = segmenter_.first_domain_of(row) + place.segment;
     column_ = place.column;
     low_ = std::uint64_t{1} << (drawn.x0 - column_);
     left_ = drawn.x0 + drawn.length - column_;
-    drawn_ = &drawn;
+    row_inside_ = &drawn.inside;
+    row_ended_ = &drawn.ended;
     stats_.spans++;
     stats_.tasks_in += drawn.length;
     inside_ += drawn.inside.count();
@@ -157,9 +159,9 @@ inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stre
         TileNumber number = kNoTile;
         bool row = false;
         if constexpr (single) {
-            const DrawnSpans::Span& span = spans_->front();
+            const DrawnSpans::Row& span = spans_->front();
             number = span.tile;
-            row = !span.end;
+            row = !span.end();
             if (row && !admits(stream, number, span.splat)) {
                 return false;
             }
@@ -167,7 +169,7 @@ inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stre
                 enter_tile(stream, number);
             }
             if (row) {
-                start(stream, span.row, span.drawn);
+                start(stream, span.row, span);
             }
             spans_->drop(now_);
         } else {
@@ -201,7 +203,7 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
     const std::uint32_t mask = cut_mask();
     if ((mask & domain.live) == 0) {
         stats_.drop(mask);
-        inside_ -= __builtin_popcount(mask & drawn_->inside.from(column_));
+        inside_ -= __builtin_popcount(mask & row_inside_->from(column_));
     } else {
         Waiting* const segment = free_;
         if (segment == nullptr) {
@@ -209,8 +211,8 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
         }
         free_ = segment->next;
         segment->mask = mask;
-        segment->inside = drawn_->inside.from(column_);
-        segment->ended = drawn_->ended.from(column_);
+        segment->inside = row_inside_->from(column_);
+        segment->ended = row_ended_->from(column_);
         segment->next = nullptr;
         segment->feature = features_.current();
         features_.hold(segment->feature);

@@ -97,7 +97,8 @@ private:
     template <bool single>
     inline BankStream::Input* earliest_input(BankStream& stream);
     inline bool admits(const BankStream& stream, TileNumber number, std::uint32_t splat);
-    inline void start(const BankStream& stream, int row, const DrawnRow& drawn);
+    template <class Row>
+    inline void start(const BankStream& stream, int row, const Row& drawn);
     [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number);
     template <bool in_turn>
     inline bool cut_segment();
@@ -214,9 +215,9 @@ private:
     Tile* cut_tile_ = nullptr;
     int cut_ = 0;           // domain of the span's next segment
     std::uint64_t low_ = 1; // bit of the segment's first pixel
-    const DrawnRow* drawn_ = nullptr;
-    DrawnRow taken_;          // a copy, unless its ring keeps it
-    BankStream* next_stream_; // whose span is taken next
+    const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see DrawnRow
+    DrawnRow taken_;                                             // a copy, unless its ring keeps it
+    BankStream* next_stream_;                                    // whose span is taken next
     bool features_full_ = false, no_room_ = false, width_limited_ = false;
     OpenPacket packet_;
     bool ends_tile_ = false;     // it carries the end of a tile

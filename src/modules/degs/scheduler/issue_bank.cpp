@@ -83,10 +83,9 @@ void IssueBank::start_of_simulation() {
     if (!DrawnBank::can_run(parts)) {
         return;
     }
-    if (unit_ != nullptr && streams_.size() == 1) {
-        drawn_spans_ = unit_->hand_over(self_);
-    }
-    drawn_bank_ = std::make_unique<DrawnBank>(parts, drawn_spans_.get());
+    const bool hands_over = unit_ != nullptr && streams_.size() == 1;
+    drawn_bank_ =
+        std::make_unique<DrawnBank>(parts, hands_over ? unit_->hand_over(self_) : nullptr);
 }
 
 void IssueBank::run() {

@@ -115,8 +115,6 @@ public:
     /// Spans and ends of tiles taken, ended pixels and contexts seen, segments issued, packets.
     void log_to(EventLog& log) override { log_ = &log; }
     const Stats& stats() const { return stats_; }
-    /// What passes the only input in place of its ring; nullptr if nothing does.
-    const DrawnSpans* drawn_spans() const { return drawn_spans_.get(); }
     const FeatureBuffer& features() const { return features_; }
 
 private:
@@ -222,9 +220,7 @@ private:
     EventLog* log_ = nullptr;
     std::size_t tile_event_ = 0, over_event_ = 0;
     SpanUnit* unit_ = nullptr;
-    // Where a DrawnBank runs, the bank and what passes its input.
-    std::unique_ptr<DrawnSpans> drawn_spans_;
-    std::unique_ptr<DrawnBank> drawn_bank_;
+    std::unique_ptr<DrawnBank> drawn_bank_; // what runs in its place, if anything does
 };
 
 } // namespace degs

@@ -8,33 +8,50 @@
 
 namespace degs {
 
-/// A Span Unit and its ring of the crossbar, where rows come drawn (TileDrawing) and the unit
-/// reaches one bank: a single ring of small cells, because every row of a frame passes here. What
-/// is in the cells was drawn before; when the unit takes a row from its lane, when the crossbar has
-/// room for it, and when the bank may read it, is worked out here. Dates and counts are those of
-/// SpanUnit and DatedFifo, which do the same for all other designs and in strict mode.
+/// A lane of the Span Buffer, its Span Unit and its ring of the crossbar, where rows come drawn
+/// (TileDrawing) and the unit reaches one bank: every row of a frame passes here. What is in the
+/// rows was drawn before, so that they stay where the Slicing Unit has put them until the bank has
+/// cut them; when the lane has room, when the unit takes a row, when the crossbar has room for it,
+/// and when the bank may read it, is worked out here. Dates and counts are those of SpanUnit and
+/// DatedFifo, which do the same for all other designs and in strict mode.
+///
+/// It is itself the ring that the bank reads; lane() is the one that the Slicing Unit writes.
 class DrawnSpans final : public FifoBase, public Pumped {
 public:
-    /// A row that covers pixels of its tile, or the end of a tile.
-    struct alignas(64) Span {
-        Cycle date = 0;    ///< from which the bank may read it
-        Cycle written = 0; ///< into the crossbar
-        Cycle read = 0;    ///< by the bank
-        DrawnRow drawn;
+    static constexpr std::int16_t kEnd = -1;
+    /// A row inside a tile, or the end of the tile.
+    struct alignas(64) Row {
+        RowMask inside, useful, ended; ///< see DrawnRow
         TileNumber tile = 0;
-        std::uint32_t splat = 0; ///< DataPath index
-        std::int16_t row = 0;    ///< inside the tile
-        bool end = false;        ///< end of the tile instead of a row
+        std::uint32_t splat = 0;         ///< DataPath index
+        std::int16_t x0 = 0, length = 0; ///< pixels; kEnd: the end of the tile
+        std::int16_t row = 0;            ///< inside the tile
+        bool end() const { return length == kEnd; }
     };
 
-    /// What `unit` does with `rows` for `bank`. `ring` stays empty.
+    /// What `unit` does with `rows` for `bank`. Both rings stay empty.
     DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows, DatedFifo<SpanItem>& ring,
                const SpanStage::Config& config, SpanStage::Stats& stats, TileEnd& tiles);
 
     /// Tells of every row that the unit has taken; before the simulation starts.
     void report_to(DatedFifo<RowSolved>& solved) { solved_ = &solved; }
-    /// The oldest one. Only if not empty().
-    const Span& front() const { return cells_[taken_ & mask_]; }
+
+    // For the Slicing Unit, see DatedFifo.
+    FifoBase& lane() { return lane_; }
+    /// Waits for a place in the lane and moves the writer to the date from which it is free.
+    void reserve(Process& writer) {
+        if (lane_.items() == span_ || reads_[(put_ - span_) & reads_mask_] > writer.local()) {
+            make_room(writer);
+        }
+    }
+    /// A row of a splat enters the lane, or the end of a tile; after reserve().
+    inline void put(Process& writer, TileNumber tile, std::uint32_t splat, int y,
+                    const DrawnRow& drawn);
+    void put_end(Process& writer, TileNumber tile);
+
+    // For the bank.
+    /// The oldest row. Only if not empty().
+    const Row& front() const { return rows_[cells_[taken_ & mask_].row & rows_mask_]; }
     /// The bank has taken the oldest one at `now`. It may still be looked at until the next one is
     /// taken.
     inline void drop(Cycle now);
@@ -42,8 +59,17 @@ public:
     /// another span.
     void pump() override;
 
-    /// To be added to those of the ring.
-    const DatedFifo<SpanItem>::Stats& counts() const { return counts_; }
+    /// To be added to those of the rings.
+    DatedFifo<SpanItem>::Stats counts() const {
+        DatedFifo<SpanItem>::Stats counts = counts_;
+        counts.items = taken_;
+        return counts;
+    }
+    DatedFifo<RowItem>::Stats lane_counts() const {
+        DatedFifo<RowItem>::Stats counts = lane_counts_;
+        counts.items = put_ - lane_.items();
+        return counts;
+    }
 
     const char* fifo_name() const override { return ring_.fifo_name(); }
     Use use() const override { return ring_.use(); }
@@ -52,35 +78,171 @@ public:
     }
 
 private:
-    inline void take();
-    inline bool deliver();
+    /// What others ask about the lane.
+    class Lane final : public FifoBase {
+    public:
+        explicit Lane(DatedFifo<RowItem>& ring)
+            : FifoBase(ring.forward_latency(), ring.release_latency()), ring_(ring) {
+            depth_ = ring.depth();
+            room_ = depth_;
+            head_ = &head;
+            free_ = &free_from;
+        }
+        const char* fifo_name() const override { return ring_.fifo_name(); }
+        Use use() const override { return ring_.use(); }
+        Cycle residence(std::uint64_t items, Cycle date) const override {
+            return ring_.residence(items, date);
+        }
+        std::size_t items() const { return filled_; }
+        void enter() { ++filled_; }
+        void leave() { --filled_; }
+
+        Cycle head = 0;      // date from which the oldest item may be read
+        Cycle free_from = 0; // of the next place, once the lane has been full
+
+    private:
+        DatedFifo<RowItem>& ring_;
+    };
+    struct Cell {
+        Cycle date = 0; // from which the bank may read it
+        Cycle read = 0; // by the bank
+        std::size_t row = 0;
+    };
+
+    [[gnu::noinline]] void make_room(Process& writer);
+    [[gnu::noinline]] void add_places();
+    [[gnu::noinline]] void add_rows();
+    inline Row& next_row();
+    inline void enter(Cycle now);
+    inline void solve(std::size_t number, Cycle written);
+    [[gnu::noinline]] void solve_other(std::size_t number, Cycle now);
+    inline void hold(std::size_t number, Cycle now);
+    inline void deliver(std::size_t number, Cycle now);
+    void deliver_end(std::size_t number, Cycle now);
 
     Process& unit_;
-    DatedFifo<RowItem>& rows_;
     DatedFifo<SpanItem>& ring_;
     DatedFifo<SpanItem>::Stats counts_;
+    DatedFifo<RowItem>::Stats lane_counts_;
     SpanStage::Stats& stats_;
     TileEnd& tiles_;
     DatedFifo<RowSolved>* solved_ = nullptr;
     Cycle cycles_per_row_;
-    // As many as a power of two: also the one taken last, and the one that the unit holds.
-    std::vector<Span> cells_;
+    // All rings have as many places as a power of two. Rows are numbered as they enter the lane.
+    Lane lane_;
+    std::vector<Row> rows_;      // from the one that the bank has taken last on
+    std::vector<Cycle> entered_; // into the lane, of each
+    std::size_t rows_mask_ = 0;
+    std::vector<std::vector<Row>> left_; // rows that were too few: the bank may look at one
+    std::size_t put_ = 0;                // rows so far
+    std::size_t kept_from_ = 0;          // the row that the bank has taken last
+    std::vector<Cycle> reads_;           // of the item that has left a place of the lane last
+    std::size_t reads_mask_ = 0;
+    std::size_t span_ = 0;    // places of the lane so far
+    std::vector<Cell> cells_; // of the crossbar
     std::size_t mask_ = 0;
     std::size_t made_ = 0, taken_ = 0; // so far
     Cycle room_ = 0;                   // date from which the crossbar has had room again
-    bool holding_ = false;
+    bool holding_ = false;             // the unit, because the crossbar is full: held_
+    std::size_t held_ = 0;
 };
 
+inline __attribute__((always_inline)) DrawnSpans::Row& DrawnSpans::next_row() {
+    if (put_ - kept_from_ == rows_.size()) {
+        add_rows();
+    }
+    return rows_[put_ & rows_mask_];
+}
+
+inline __attribute__((always_inline)) void DrawnSpans::put(Process& writer, TileNumber tile,
+                                                           std::uint32_t splat, int y,
+                                                           const DrawnRow& drawn) {
+    Row& row = next_row();
+    row.inside = drawn.inside;
+    row.useful = drawn.useful;
+    row.ended = drawn.ended;
+    row.tile = tile;
+    row.splat = splat;
+    row.x0 = inside_tile(drawn.x0);
+    row.length = inside_tile(drawn.length);
+    row.row = inside_tile(y);
+    enter(writer.local());
+}
+
+// The unit takes it at once, unless it holds another one, and the lane may have more.
+inline __attribute__((always_inline)) void DrawnSpans::enter(Cycle now) {
+    const std::size_t number = put_++;
+    if (!holding_) {
+        solve(number, now);
+        return;
+    }
+    entered_[number & rows_mask_] = now;
+    if (lane_.items() == 0) {
+        lane_.head = now + lane_.forward_latency();
+    }
+    lane_.enter();
+}
+
+// The unit takes a row.
+inline __attribute__((always_inline)) void DrawnSpans::solve(std::size_t number, Cycle written) {
+    const Cycle free = unit_.local();
+    const Cycle now = std::max(free, written + lane_.forward_latency());
+    lane_counts_.empty_cycles += now - free;
+    lane_counts_.occupied_cycles += now - written;
+    // The mark rises by one where as many items as before it were still inside.
+    const std::size_t mark = lane_counts_.high_water;
+    if (mark != lane_.depth() && (mark == 0 || reads_[(number - mark) & reads_mask_] > written)) {
+        lane_counts_.high_water = mark + 1;
+    }
+    reads_[number & reads_mask_] = now;
+    const int length = rows_[number & rows_mask_].length;
+    if (length <= 0 || solved_ != nullptr) {
+        solve_other(number, now);
+        return;
+    }
+    stats_.rows++;
+    stats_.spans++;
+    stats_.tasks += length;
+    if (filled_ == depth_) {
+        hold(number, now);
+    } else {
+        deliver(number, now);
+    }
+}
+
+// The crossbar is full.
+inline __attribute__((always_inline)) void DrawnSpans::hold(std::size_t number, Cycle now) {
+    unit_.advance_to(now);
+    holding_ = true;
+    held_ = number;
+    unit_.hold_for(this);
+}
+
+// A span enters the crossbar, which has room.
+inline __attribute__((always_inline)) void DrawnSpans::deliver(std::size_t number, Cycle now) {
+    const Cycle written = std::max(now, cells_[(made_ - depth_) & mask_].read + release_latency_);
+    counts_.full_cycles += written - now;
+    Cell& cell = cells_[made_++ & mask_];
+    cell.date = written + forward_latency_;
+    cell.row = number;
+    const bool was_empty = filled_++ == 0;
+    stats_.busy += cycles_per_row_;
+    unit_.advance_to(written + cycles_per_row_);
+    if (was_empty && reader_->blocked()) {
+        reader_->wake();
+    }
+}
+
 inline __attribute__((always_inline)) void DrawnSpans::drop(Cycle now) {
-    Span& span = cells_[taken_ & mask_];
-    counts_.items++;
-    counts_.occupied_cycles += now - span.written;
-    // The mark rises by one where as many spans as before it were still inside.
+    Cell& cell = cells_[taken_ & mask_];
+    const Cycle written = cell.date - forward_latency_;
+    counts_.occupied_cycles += now - written;
     const std::size_t mark = counts_.high_water;
-    if (mark != depth_ && (mark == 0 || cells_[(taken_ - mark) & mask_].read > span.written)) {
+    if (mark != depth_ && (mark == 0 || cells_[(taken_ - mark) & mask_].read > written)) {
         counts_.high_water = mark + 1;
     }
-    span.read = now;
+    cell.read = now;
+    kept_from_ = cell.row;
     head_ = &cells_[++taken_ & mask_].date;
     if (filled_-- == depth_) {
         room_ = now + release_latency_;

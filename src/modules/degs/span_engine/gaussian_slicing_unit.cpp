@@ -66,7 +66,7 @@ GaussianSlicingUnit::GaussianSlicingUnit(const sc_core::sc_module_name& name, co
       sliced("sliced", config.reports_chunks ? 1 : 0),
       row_counts("row_counts", config.reports_chunks ? out.size() : 0), config_(config), job_(job),
       index_(index), modules_(config.modules()), segment_length_(segment_length), self_(time),
-      open_chunks_(sliced, row_counts) {
+      readers_(out.size()), open_chunks_(sliced, row_counts) {
     for (int row = 0; row < job.tile_size; ++row) {
         lane_of_row_.push_back((row % lanes) / config.modules());
     }
@@ -89,10 +89,15 @@ void GaussianSlicingUnit::end_of_elaboration() {
         lanes_.back()->connect_writer(self_);
     }
     row_writes_.resize(lanes_.size());
+    drawn_lanes_.resize(lanes_.size());
     open_chunks_.connect_writer(self_);
 }
 
 void GaussianSlicingUnit::run() {
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+        const SpanStage* const reader = readers_[lane];
+        drawn_lanes_[lane] = reader != nullptr ? reader->drawn_spans() : nullptr;
+    }
     for (TileNumber number = tile_after(kNoTile); number != kNoTile; number = tile_after(number)) {
         slice_tile(number);
         end_lanes(number);
@@ -110,8 +115,13 @@ void GaussianSlicingUnit::end_lanes(TileNumber number) {
     RowItem end;
     end.tile = number;
     end.end = true;
-    for (DatedFifo<RowItem>* lane : lanes_) {
-        lane->put(self_, end);
+    for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
+        if (DrawnSpans* const spans = drawn_lanes_[lane]) {
+            spans->reserve(self_);
+            spans->put_end(self_, number);
+        } else {
+            lanes_[lane]->put(self_, end);
+        }
     }
 }
 
@@ -223,6 +233,19 @@ void GaussianSlicingUnit::work(TileNumber number) {
     }
 }
 
+inline __attribute__((always_inline)) void
+GaussianSlicingUnit::put_row(TileNumber number, const Slice& slice, DatedFifo<RowItem>& lane) {
+    RowItem& item = lane.staged();
+    item.tile = number;
+    item.splat = slice.splat;
+    item.row = inside_tile(slice.row);
+    item.end = false;
+    if (drawing_ != nullptr) {
+        item.drawn = *slice.drawn;
+    }
+    lane.put_staged(self_);
+}
+
 void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before) {
     const int drawn = drawing_ != nullptr ? 1 : 0;
     for (; slice.row <= slice.last && slice.row < before;
@@ -234,24 +257,24 @@ void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before)
         if (slice.rows_left == 0) {
             return;
         }
-        const std::size_t lane_number = lane_of_row_[slice.row];
-        DatedFifo<RowItem>& lane = *lanes_[lane_number];
-        lane.reserve(self_);
-        if (!takes_row_port(lane_number)) {
+        const std::size_t lane = lane_of_row_[slice.row];
+        DrawnSpans* const spans = drawn_lanes_[lane];
+        if (spans != nullptr) {
+            spans->reserve(self_);
+        } else {
+            lanes_[lane]->reserve(self_);
+        }
+        if (!takes_row_port(lane)) {
             return;
         }
         --slice.rows_left;
-        open_chunks_.count_row(slice.chunk, lane_number);
-        RowItem& item = lane.staged();
-        item.tile = number;
-        item.splat = slice.splat;
-        item.row = inside_tile(slice.row);
-        item.end = false;
-        if (drawing_ != nullptr) {
-            item.drawn = *slice.drawn;
-        }
-        lane.put_staged(self_);
+        open_chunks_.count_row(slice.chunk, lane);
         stats_.rows++;
+        if (spans != nullptr) {
+            spans->put(self_, number, slice.splat, slice.row, *slice.drawn);
+        } else {
+            put_row(number, slice, *lanes_[lane]);
+        }
     }
 }
 

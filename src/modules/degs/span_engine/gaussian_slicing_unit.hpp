@@ -7,6 +7,7 @@
 
 #include "config/config.hpp"
 #include "modules/degs/drawing/tile_drawing.hpp"
+#include "modules/degs/span_engine/drawn_spans.hpp"
 #include "modules/degs/span_engine/open_chunks.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/sram_ports.hpp"
@@ -95,6 +96,8 @@ public:
                         int lanes, std::size_t slices, int segment_length);
 
     const Stats& stats() const { return stats_; }
+    /// The Span Units that read output `lane`, if known; before the simulation starts.
+    void write_to(std::size_t lane, const SpanStage& spans) { readers_[lane] = &spans; }
     /// Has the rows of every splat drawn; before the simulation starts.
     void draw_with(TileDrawing& drawing) { drawing_ = &drawing; }
     /// Chunks of splats, cancelled tiles and ended regions taken, rows and ends of tiles sent.
@@ -131,6 +134,7 @@ private:
     void draw(TileNumber number, std::uint32_t place, Slice& slice);
     [[gnu::noinline]] std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
     void send_rows(TileNumber number, Slice& slice, int before);
+    inline void put_row(TileNumber number, const Slice& slice, DatedFifo<RowItem>& lane);
     bool takes_row_port(std::size_t lane);
 
     Config config_;
@@ -141,6 +145,8 @@ private:
     TileNumber cancelled_before_ = 0;
     std::vector<std::size_t> lane_of_row_;   // output port by row inside the tile
     std::vector<DatedFifo<RowItem>*> lanes_; // what the ports are bound to
+    std::vector<const SpanStage*> readers_;
+    std::vector<DrawnSpans*> drawn_lanes_; // what takes the rows of a lane in its place, if any
     struct Writes {
         Cycle date = 0;
         int count = 0;

@@ -15,6 +15,8 @@
 
 namespace degs {
 
+class DrawnSpans;
+
 /// Which Span Unit solves a row: the one whose number is the row's modulo their number, or any that
 /// is free.
 enum class RowAssignment { Fixed, Pool };
@@ -65,6 +67,8 @@ public:
     sc_core::sc_vector<FifoPort<RowSolved>> solved;
 
     const Stats& stats() const { return stats_; }
+    /// What carries rows from the lane to the bank in place of the rings; nullptr if nothing does.
+    virtual DrawnSpans* drawn_spans() const { return nullptr; }
     /// Rows taken from the lanes, Span Vectors and ends of tiles sent.
     void log_to(EventLog& log) override { log_ = &log; }
 

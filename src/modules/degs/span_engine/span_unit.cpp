@@ -42,17 +42,17 @@ void SpanUnit::start_of_simulation() {
     }
 }
 
-std::unique_ptr<DrawnSpans> SpanUnit::hand_over(Process& bank) {
-    if (!config_.drawn || rings_.size() != 1) {
+DrawnSpans* SpanUnit::hand_over(Process& bank) {
+    if (!config_.drawn || rings_.size() != 1 || rows_->attended() || rings_.front()->attended()) {
         return nullptr;
     }
-    auto spans =
+    drawn_spans_ =
         std::make_unique<DrawnSpans>(self_, bank, *rows_, *rings_.front(), config_, stats_, tiles_);
     if (config_.reports_rows) {
-        spans->report_to(solved[0].ring());
+        drawn_spans_->report_to(solved[0].ring());
     }
-    self_.pump_with(*spans, *rows_);
-    return spans;
+    self_.pump_with(*drawn_spans_, drawn_spans_->lane());
+    return drawn_spans_.get();
 }
 
 void SpanUnit::run() {

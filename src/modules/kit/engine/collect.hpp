@@ -45,17 +45,35 @@ struct RingUse {
     Cycle late_cycles = 0; ///< of the reader of each, see DatedFifo
 };
 
+/// Of rings together.
+inline RingUse& operator+=(RingUse& sum, const RingUse& other) {
+    sum.depth += other.depth;
+    sum.high_water = std::max(sum.high_water, other.high_water);
+    sum.items += other.items;
+    sum.full_cycles += other.full_cycles;
+    sum.empty_cycles += other.empty_cycles;
+    sum.late_cycles += other.late_cycles;
+    sum.occupied_cycles += other.occupied_cycles;
+    return sum;
+}
+
+/// Of a ring of `depth` cells that has these DatedFifo::Stats.
+template <class Stats>
+RingUse use_of(const Stats& stats, std::size_t depth) {
+    return {depth,
+            stats.high_water,
+            stats.items,
+            stats.full_cycles,
+            stats.empty_cycles,
+            stats.occupied_cycles,
+            stats.late_cycles};
+}
+
 template <class T>
 RingUse use_of(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
     RingUse use;
     for (const auto& ring : rings) {
-        use.depth += ring->depth();
-        use.high_water = std::max(use.high_water, ring->stats().high_water);
-        use.items += ring->stats().items;
-        use.full_cycles += ring->stats().full_cycles;
-        use.empty_cycles += ring->stats().empty_cycles;
-        use.late_cycles += ring->stats().late_cycles;
-        use.occupied_cycles += ring->stats().occupied_cycles;
+        use += use_of(ring->stats(), ring->depth());
     }
     return use;
 }
