@@ -48,12 +48,19 @@ std::string text_of(const MotionTable& table) {
 
 } // namespace
 
+std::string size_words(const MotionWords& words) {
+    return (words.eyes_m ? "2 × " : "") + words.size;
+}
+
 nlohmann::ordered_json motion_json(const MotionWords& words, const Motion& motion) {
     nlohmann::ordered_json json;
     json["schema"] = {{"name", "degs-motion"}, {"version", 1}};
     json["tool"] = tool_json();
     json["scene"] = words.scene;
     json["size"] = words.size;
+    if (words.eyes_m) {
+        json["eyes_m"] = *words.eyes_m;
+    }
     json["fidelity"] = words.estimated ? "analytic" : "exact";
     json["frames"] = motion.times_s.size();
     json["designs"] = nlohmann::ordered_json::array();
@@ -112,7 +119,7 @@ MotionTable display_table(const Motion& motion) {
 }
 
 std::string motion_text(const MotionWords& words, const Motion& motion) {
-    return words.scene + " · " + words.size + " · " + std::to_string(motion.times_s.size()) +
+    return words.scene + " · " + size_words(words) + " · " + std::to_string(motion.times_s.size()) +
            (motion.times_s.size() == 1 ? " frame" : " frames") +
            (words.estimated ? " · estimated" : "") + "\n" + text_of(latency_table(motion)) + "\n" +
            text_of(display_table(motion));

@@ -27,6 +27,7 @@ void each_field(Fields& fields, Summary& summary) {
     fields("view.camera", summary.view.camera);
     fields("view.width", summary.view.width);
     fields("view.height", summary.view.height);
+    fields("view.views", summary.view.views);
     fields("view.gaussians", summary.view.gaussians);
     fields("view.visible", summary.view.visible);
     fields("view.fragments", summary.view.fragments);
@@ -98,6 +99,7 @@ RunSummary summary_of(const RunResult& result, int camera) {
     summary.pes = result.accelerator.pes;
     summary.tile_size = result.workload.tile_size;
     summary.view = view_of(result.scene, result.camera, result.workload, camera);
+    summary.view.views = std::max<int>(1, static_cast<int>(result.views.size()));
     if (result.workload.reference) {
         summary.view.fragments = result.workload.reference->fragments;
     }

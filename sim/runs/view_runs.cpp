@@ -5,8 +5,8 @@
 #include <cctype>
 #include <map>
 
-#include "scene/cameras/camera_path.hpp"
 #include "sim/runs/shared_view.hpp"
+#include "sim/simulation/view_group.hpp"
 
 namespace degs::sim {
 namespace {
@@ -14,13 +14,18 @@ namespace {
 // Bytes that the simulations of a group keep for each other: half of a 4K frame and more.
 constexpr std::size_t kMostKept = std::size_t{1} << 30U;
 
-/// Configurations that want the same frames.
-std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedConfig>& all,
-                                                        const std::vector<std::size_t>& configs,
-                                                        const SceneTraits& traits) {
-    std::map<FrameKind, std::vector<std::size_t>> groups;
+bool shares_colours(const AcceleratorConfig& config, int views) {
+    return views > 1 && config.view_sharing() == ViewSharing::Colour;
+}
+
+/// Configurations that want the same frames, with the same colours.
+std::map<std::pair<FrameKind, bool>, std::vector<std::size_t>>
+groups_of(const std::vector<NamedConfig>& all, const std::vector<std::size_t>& configs,
+          const SceneTraits& traits, int views) {
+    std::map<std::pair<FrameKind, bool>, std::vector<std::size_t>> groups;
     for (std::size_t c : configs) {
-        groups[frame_kind(all[c].config.accelerator(), traits)].push_back(c);
+        const AcceleratorConfig& design = all[c].config.accelerator();
+        groups[{frame_kind(design, traits), shares_colours(design, views)}].push_back(c);
     }
     return groups;
 }
@@ -120,8 +125,17 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
     const std::size_t before = started_.size();
     try {
         const ImageSize& size = request_.sizes[place.size];
-        const Camera first = resize(select_camera(scene, place.camera), size.width, size.height);
-        place.words += " · " + std::to_string(first.width) + "×" + std::to_string(first.height);
+        PathSource source;
+        source.camera = place.camera;
+        source.camera_at = [this, &scene, &size](int position) {
+            return resize_and_crop(select_camera(scene, position), size.width, size.height,
+                                   request_.crop);
+        };
+        source.cloud = [&scene]() -> const GaussianCloud& { return scene.cloud; };
+        const Camera first = source.camera_at(place.camera);
+        const int views = request_.path.group.views();
+        place.words += " · " + (views > 1 ? std::to_string(views) + " × " : std::string()) +
+                       std::to_string(first.width) + "×" + std::to_string(first.height);
         place.view = views_++;
         place.folder = std::to_string(place.view + 1) + "-" + file_name(scene.name) + "-camera" +
                        std::to_string(place.camera) + "-" + std::to_string(first.width) + "x" +
@@ -133,13 +147,15 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
         if (request_.path.frames > 1) {
             shared.dynamic = open_dynamic_scene(request_.scenes[place.scene]);
         }
-        shared.cameras = shared.dynamic ? std::vector<Camera>(request_.path.frames, first)
-                                        : camera_path(scene.cloud, first, request_.path.frames,
-                                                      request_.path.step_degrees,
-                                                      nearest_plane(request_.configs));
+        source.stands_still = shared.dynamic != nullptr;
+        PathRequest path = request_.path;
+        path.near_plane = nearest_plane(request_.configs);
+        shared.cameras = cameras_of_frames(path, source);
+        shared.views = views;
         place.dynamic = shared.dynamic != nullptr;
         shared.load_s = load_s;
-        for (const auto& [kind, members] : groups_of(request_.configs, configs, scene.traits)) {
+        for (const auto& [kind, members] :
+             groups_of(request_.configs, configs, scene.traits, views)) {
             if (!interrupted_) {
                 run_group(shared, place, members);
             }
@@ -160,12 +176,16 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
     shared.frames.clear(); // before the next are made; children have copies of their own
     shared.kept = nullptr;
     shared.workload_s = 0;
-    shared.frames = shared.dynamic ? make_workloads(*shared.dynamic, shared.scene.traits,
-                                                    shared.cameras, wish, shared.workload_s)
-                                   : make_workloads(*shared.cloud, shared.scene.traits,
-                                                    shared.cameras, wish, shared.workload_s);
+    shared.frames = shared.dynamic
+                        ? make_workloads(*shared.dynamic, shared.scene.traits, shared.cameras, wish,
+                                         shared.workload_s, shared.views)
+                        : make_workloads(*shared.cloud, shared.scene.traits, shared.cameras, wish,
+                                         shared.workload_s);
     if (request_.reference && !request_.sampling) {
-        shared.render_reference(wish.tile_mode());
+        shared.render_references(wish.tile_mode());
+    }
+    if (shares_colours(wish, shared.views)) { // the references have the colours of each view
+        shared.share_colours();
     }
     if (configs.size() > 1 && !request_.analytic) {
         shared.kept = std::make_unique<SharedBytes>(kMostKept);
@@ -174,7 +194,7 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
         ViewRun run = place;
         run.config = config;
         start(shared, run);
-        if (shared.frames.size() > 1) {
+        if (request_.path.frames > 1) {
             run.path = true;
             start(shared, run);
         }
@@ -192,9 +212,10 @@ void ViewRuns::start(const SharedView& shared, ViewRun run) {
     request.build.kept = shared.kept.get();
     request.reference = request_.reference && !run.path && !request_.sampling;
     request.sampling = request_.sampling;
+    request.views = shared.views;
     run.name = request_.configs[run.config].name + ", " + run.words;
     if (run.path) {
-        run.name += ", " + std::to_string(shared.frames.size()) + " frames";
+        run.name += ", " + std::to_string(request_.path.frames) + " frames";
     }
     const bool path = run.path;
     run.clock = Stopwatch();

@@ -53,6 +53,23 @@ TEST(MotionRuns, GoesThroughTheCameras) {
     EXPECT_DOUBLE_EQ(written["designs"][0]["latency_ms"]["worst"].get<double>(), worst);
 }
 
+/// A frame of two eyes is what degs run says of them.
+TEST(MotionRuns, HasTwoEyes) {
+    const Folder folder;
+    const std::vector<std::string> eyes{"--eyes", "0.3", "--units-per-metre", "2"};
+    std::vector<std::string> more{"--camera", "2", "--crop", "8,4,40x30"};
+    more.insert(more.end(), eyes.begin(), eyes.end());
+    expect_success(motion(folder / "m", more));
+    const nlohmann::json written = document_in(folder / "m");
+    EXPECT_EQ(written["eyes_m"], 0.3);
+    std::vector<std::string> run{"run", config("degs-16"), "--scene",   kMotionScene, "--width",
+                                 "64",  "--out",           folder / "r"};
+    run.insert(run.end(), more.begin(), more.end());
+    expect_success(degs(run));
+    EXPECT_EQ(written["designs"][0]["latency_ms"]["worst"],
+              report_in(folder / "r")["timing"]["latency_ms"]);
+}
+
 /// The first frame is the camera's own; a head that stands still sees the same frame again.
 TEST(MotionRuns, FollowsRecordedPoses) {
     const Folder folder;
@@ -82,6 +99,8 @@ TEST(MotionRuns, RefusesInOneSentence) {
              {{"--poses", head}, "--frames takes the first ones"},
              {{"--poses", head, "--between", "3"}, "--between is for a path through cameras"},
              {{"--in-scene"}, "--poses is missing"},
+             {{"--units-per-metre", "2"}, "--poses or --eyes is missing"},
+             {{"--eyes", "0.1", "--fidelity", "analytic"}, "frames with one view"},
              {{"--rates", "90,90"}, "--rates has 90 Hz twice"},
              {{"--rates", "0"}, "--rates"},
              {{"--rates", "fast"}, "--rates"},
