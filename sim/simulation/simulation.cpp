@@ -196,6 +196,10 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
          saturation_warnings(request.config.accelerator().data_path(), *frames.front())) {
         result.warnings.push_back(std::move(sentence));
     }
+    for (std::string& sentence :
+         lens_warnings(frames.front()->camera, frames.front()->projection)) {
+        result.warnings.push_back(std::move(sentence));
+    }
     for (std::string& sentence : near_plane_warnings(frames)) {
         result.warnings.push_back(std::move(sentence));
     }
