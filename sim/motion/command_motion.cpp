@@ -55,6 +55,22 @@ void check(const MotionRequest& motion) {
     }
 }
 
+/// The designs; one that keeps lists begins a frame when the one before is in memory, as a head
+/// waits for a display.
+std::vector<NamedConfig> loaded_designs(const MotionOptions& options) {
+    std::vector<NamedConfig> designs =
+        load_configs(options.configs, options.overrides, options.memory);
+    std::vector<std::string> overrides = options.overrides;
+    for (const NamedConfig& design : designs) {
+        if (design.config.accelerator().keeps_lists()) {
+            overrides.push_back(design.name + ":frames_in_flight=1");
+        }
+    }
+    return overrides.size() == options.overrides.size()
+               ? designs
+               : load_configs(options.configs, overrides, options.memory);
+}
+
 void run(const MotionOptions& options) {
     Motion motion;
     check_rates(options.rates);
@@ -62,7 +78,8 @@ void run(const MotionOptions& options) {
     check(options.motion);
     check_view(options.motion.view);
     CompareRequest request;
-    request.configs = load_configs(options.configs, options.overrides, options.memory);
+    request.configs = loaded_designs(options);
+    request.consecutive = true;
     request.scenes = {options.motion.view.scene};
     request.camera_file = options.motion.view.camera_file;
     request.analytic = is_analytic(options.fidelity);

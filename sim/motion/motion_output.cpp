@@ -31,6 +31,9 @@ nlohmann::ordered_json design_json(const DesignMotion& design) {
                               {"worst", ranks.worst},
                               {"worst_frame", ranks.worst_frame}};
     }
+    if (const std::optional<double> bytes = mean_of_frames(design.bytes)) {
+        json["bytes_per_frame"] = *bytes;
+    }
     json["displays"] = nlohmann::ordered_json::array();
     for (const DisplayResult& display : design.displays) {
         json["displays"].push_back(display_json(display));
@@ -87,13 +90,16 @@ std::string motion_csv(const Motion& motion) {
 }
 
 MotionTable latency_table(const Motion& motion) {
-    MotionTable table{{"latency, ms", "P50", "P95", "P99", "worst", "in frame"}, {}};
+    MotionTable table{{"latency, ms", "P50", "P95", "P99", "worst", "in frame", "MB per frame"},
+                      {}};
     for (const DesignMotion& design : motion.designs) {
         if (design.ranks) {
             const LatencyRanks& ranks = *design.ranks;
+            const std::optional<double> bytes = mean_of_frames(design.bytes);
             table.rows.push_back({design.name, three_digits(ranks.p50), three_digits(ranks.p95),
                                   three_digits(ranks.p99), three_digits(ranks.worst),
-                                  std::to_string(ranks.worst_frame)});
+                                  std::to_string(ranks.worst_frame),
+                                  bytes ? three_digits(*bytes * 1e-6) : ""});
         }
     }
     return table;

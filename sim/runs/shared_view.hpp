@@ -20,6 +20,7 @@ struct SharedView {
     std::unique_ptr<DynamicScene> dynamic; ///< if the scene changes and several frames are wanted
     std::vector<Camera> cameras;           ///< of the path, see cameras_of_frames()
     int views = 1;                         ///< of a frame
+    int frames_of_path() const { return static_cast<int>(cameras.size()) / views; }
     double load_s = 0, workload_s = 0;
     std::vector<FrameWorkload> frames; ///< of the present group
     std::unique_ptr<SharedBytes> kept; ///< what its simulations keep for each other, if several

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <tuple>
 
 #include "sim/runs/shared_view.hpp"
 #include "sim/simulation/view_group.hpp"
@@ -18,14 +19,23 @@ bool shares_colours(const AcceleratorConfig& config, int views) {
     return views > 1 && config.view_sharing() == ViewSharing::Colour;
 }
 
-/// Configurations that want the same frames, with the same colours.
-std::map<std::pair<FrameKind, bool>, std::vector<std::size_t>>
-groups_of(const std::vector<NamedConfig>& all, const std::vector<std::size_t>& configs,
-          const SceneTraits& traits, int views) {
-    std::map<std::pair<FrameKind, bool>, std::vector<std::size_t>> groups;
-    for (std::size_t c : configs) {
-        const AcceleratorConfig& design = all[c].config.accelerator();
-        groups[{frame_kind(design, traits), shares_colours(design, views)}].push_back(c);
+/// What configurations have in common that share frames: their kind, whether views share colours,
+/// and whether they follow the frames of the view before.
+using GroupKind = std::tuple<FrameKind, bool, bool>;
+
+bool follows_in(const GroupKind& kind) {
+    return std::get<2>(kind);
+}
+
+std::map<GroupKind, std::vector<std::size_t>> groups_of(const CompareRequest& request,
+                                                        const std::vector<std::size_t>& configs,
+                                                        const SceneTraits& traits, int camera) {
+    std::map<GroupKind, std::vector<std::size_t>> groups;
+    for (const std::size_t c : configs) {
+        const AcceleratorConfig& design = request.configs[c].config.accelerator();
+        const bool shared = shares_colours(design, request.path.group.views());
+        groups[{frame_kind(design, traits), shared, ViewRuns::follows(request, c, camera)}]
+            .push_back(c);
     }
     return groups;
 }
@@ -116,6 +126,42 @@ ViewRuns::Configs ViewRuns::wanted_configs(const ViewRun& place) const {
     return configs;
 }
 
+bool ViewRuns::follows(const CompareRequest& request, std::size_t config, int camera) {
+    return request.consecutive && camera > 0 && !request.analytic &&
+           request.configs[config].config.accelerator().keeps_lists();
+}
+
+std::size_t ViewRuns::runs_of(const ViewRun& place, const Configs& configs) const {
+    std::size_t runs = 0;
+    for (const std::size_t config : configs) {
+        runs += request_.path.frames > 1 || follows(request_, config, place.camera) ? 2 : 1;
+    }
+    return runs;
+}
+
+Camera ViewRuns::camera_at(const Scene& scene, const ImageSize& size, int position) const {
+    return resize_and_crop(select_camera(scene, position), size.width, size.height, request_.crop);
+}
+
+std::vector<Camera> ViewRuns::cameras_of(const Scene& scene, const ViewRun& place,
+                                         bool stands_still, bool follows) const {
+    PathSource source;
+    source.camera_at = [this, &scene, &place](int position) {
+        return camera_at(scene, request_.sizes[place.size], position);
+    };
+    source.cloud = [&scene]() -> const GaussianCloud& { return scene.cloud; };
+    source.stands_still = stands_still;
+    PathRequest path = request_.path;
+    path.near_plane = nearest_plane(request_.configs);
+    std::vector<Camera> cameras;
+    for (int camera = follows ? place.camera - 1 : place.camera; camera <= place.camera; ++camera) {
+        source.camera = camera;
+        const std::vector<Camera> frames = cameras_of_frames(path, source);
+        cameras.insert(cameras.end(), frames.begin(), frames.end());
+    }
+    return cameras;
+}
+
 void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
     const Configs configs = wanted_configs(place);
     if (configs.empty()) {
@@ -125,14 +171,7 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
     const std::size_t before = started_.size();
     try {
         const ImageSize& size = request_.sizes[place.size];
-        PathSource source;
-        source.camera = place.camera;
-        source.camera_at = [this, &scene, &size](int position) {
-            return resize_and_crop(select_camera(scene, position), size.width, size.height,
-                                   request_.crop);
-        };
-        source.cloud = [&scene]() -> const GaussianCloud& { return scene.cloud; };
-        const Camera first = source.camera_at(place.camera);
+        const Camera first = camera_at(scene, size, place.camera);
         const int views = request_.path.group.views();
         place.words += " · " + (views > 1 ? std::to_string(views) + " × " : std::string()) +
                        std::to_string(first.width) + "×" + std::to_string(first.height);
@@ -147,23 +186,19 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
         if (request_.path.frames > 1) {
             shared.dynamic = open_dynamic_scene(request_.scenes[place.scene]);
         }
-        source.stands_still = shared.dynamic != nullptr;
-        PathRequest path = request_.path;
-        path.near_plane = nearest_plane(request_.configs);
-        shared.cameras = cameras_of_frames(path, source);
         shared.views = views;
         place.dynamic = shared.dynamic != nullptr;
         shared.load_s = load_s;
         for (const auto& [kind, members] :
-             groups_of(request_.configs, configs, scene.traits, views)) {
+             groups_of(request_, configs, scene.traits, place.camera)) {
             if (!interrupted_) {
+                shared.cameras = cameras_of(scene, place, place.dynamic, follows_in(kind));
                 run_group(shared, place, members);
             }
         }
     } catch (...) {
-        const std::size_t runs = configs.size() * (request_.path.frames > 1 ? 2 : 1);
         hooks_.view_failed(place, failure_of(std::current_exception()),
-                           runs - (started_.size() - before));
+                           runs_of(place, configs) - (started_.size() - before));
     }
 }
 
@@ -194,7 +229,7 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
         ViewRun run = place;
         run.config = config;
         start(shared, run);
-        if (request_.path.frames > 1) {
+        if (shared.frames_of_path() > 1) {
             run.path = true;
             start(shared, run);
         }
@@ -215,7 +250,7 @@ void ViewRuns::start(const SharedView& shared, ViewRun run) {
     request.views = shared.views;
     run.name = request_.configs[run.config].name + ", " + run.words;
     if (run.path) {
-        run.name += ", " + std::to_string(request_.path.frames) + " frames";
+        run.name += ", " + std::to_string(shared.frames_of_path()) + " frames";
     }
     const bool path = run.path;
     run.clock = Stopwatch();

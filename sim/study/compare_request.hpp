@@ -27,8 +27,9 @@ struct ImageSize {
 struct CompareRequest {
     std::vector<NamedConfig> configs; ///< the others are compared with the first
     std::vector<std::string> scenes;
-    std::string camera_file;                 ///< empty: the scenes' own
-    std::vector<Camera> views;               ///< in place of the scenes' cameras; empty: none
+    std::string camera_file;   ///< empty: the scenes' own
+    std::vector<Camera> views; ///< in place of the scenes' cameras; empty: none
+    bool consecutive = false;  ///< designs that keep lists render the view before, too
     std::optional<std::vector<int>> cameras; ///< positions in each scene's list; empty: all
     std::vector<ImageSize> sizes{ImageSize{}};
     std::string crop; ///< see crop_of(); empty: all of the images
