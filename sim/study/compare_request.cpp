@@ -205,6 +205,10 @@ void put_views(const StudyViews& views, CompareRequest& request) {
     } else {
         request.sizes = parse_resolutions(views.resolutions);
     }
+    if (!views.crop.empty() && request.sizes.size() > 1) {
+        throw InputError("A crop (--crop, or 'crop' of a study) has pixels of images in one size, "
+                         "but several resolutions are asked for.");
+    }
     request.crop = views.crop;
     request.path = views.path;
     if (!views.path.group.cameras.empty()) { // they are one view of the study

@@ -119,6 +119,8 @@ TEST(HostileViewsOfAStudy, Mistakes) {
     refused("views: [0, 1]\neyes: 1\n", {}, "'views' and 'eyes' exclude each other");
     refused("views: [0, 1]\ncameras: 1\n", {}, "'views' and 'cameras' exclude each other");
     refused("views: [0, 9]\n", {}, "Camera 9 does not exist");
+    refused("crop: 0,0,32x32\n", {"--resolution", "720p,1080p", "--crop", "0,0,32x32"},
+            "images in one size");
     refused("crop: 1,2,3\n", {}, "X,Y,WxH");
     refused("eyes: 1\n", {"--within", "1%"}, "Estimates are of frames with one view");
     refused("eyes: 1\nfidelity: analytic\n", {}, "Estimates are of frames with one view");
