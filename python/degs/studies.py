@@ -156,16 +156,17 @@ def finished(file: Path, read: Any) -> Iterator[None]:
 
 
 def sweep(design: Designs, axes: Axes, scenes: Union[PathLike, Sequence[PathLike]], *,
-          cameras: Union[int, str, Sequence[int]] = 0, width: Optional[int] = None,
+          cameras: Union[None, int, str, Sequence[int]] = None, width: Optional[int] = None,
           resolutions: Union[None, str, Sequence[str]] = None, combine: str = "product", name: str = "study",
           reference: bool = True, jobs: Optional[int] = None, out: Optional[PathLike] = None,
           progress: Optional[bool] = None, **study: Any) -> pandas.DataFrame:
     """Varies keys of one or several designs; a row for each point, as Study.sweep() returns it.
 
     `axes` has lists, ranges or linked keys as in docs/studies.md#axes: {"span.count": [4, 8, 16], "packing.bytes":
-    "8KB..32KB x2"}. `study` has further keys of a study, such as camera_file, frames, fidelity or baseline."""
-    views: Dict[str, Any] = {"width": width, "resolutions": resolutions, **study}
-    values = {"study": name, "designs": design, "axes": axes, "combine": combine, "scenes": scenes, "cameras": cameras,
+    "8KB..32KB x2"}. `study` has further keys of a study, such as camera_file, frames, eyes, views, crop, fidelity or
+    baseline; cameras are the first of each scene by default."""
+    views: Dict[str, Any] = {"cameras": cameras, "width": width, "resolutions": resolutions, **study}
+    values = {"study": name, "designs": design, "axes": axes, "combine": combine, "scenes": scenes,
               "reference": reference, **{key: value for key, value in views.items() if value is not None}}
     return Study(values).sweep(jobs=jobs, out=out, progress=progress)
 
@@ -173,7 +174,7 @@ def sweep(design: Designs, axes: Axes, scenes: Union[PathLike, Sequence[PathLike
 def compare(designs: Designs, scene: Union[None, PathLike, Sequence[PathLike]] = None, *, jobs: Optional[int] = None,
             out: Optional[PathLike] = None, progress: Optional[bool] = None, **options: Any) -> pandas.DataFrame:
     """Compares designs on the same frames with the first of them: a row for each run, with the columns of compare.csv
-    (docs/compare.md#files). `options` are those of `degs compare`: camera=, width=, resolution=, frames=, ...
+    (docs/compare.md#files). `options` are those of `degs compare`: camera=, width=, resolution=, frames=, eyes=, ...
 
     Names are those of the designs; a mapping from names to designs gives others."""
     views = {"scene": scene, **options}
@@ -209,6 +210,8 @@ def study_options(options: Mapping[str, Any]) -> List[str]:
     for name in ("camera", "cameras", "resolution", "resolutions"):
         if name in given:
             given[name.rstrip("s")] = joined(given.pop(name))
+    if "views" in given:
+        given["views"] = joined(given.pop("views"))
     words = options_of(**{name: value for name, value in given.items() if value is not None})
     return words + options_of(set=[f"{path}={value}" for path, value in keys.items()])
 

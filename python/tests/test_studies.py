@@ -41,6 +41,15 @@ def test_points_agree_with_runs():
     assert row["energy.nj_per_frame"] == pytest.approx(report.energy.nj_per_frame, rel=1e-14)  # Tables have 15 digits.
 
 
+def test_views_of_a_frame():
+    views = degs.sweep("degs-16", {}, SCENE, width=32, views=[0, 1], crop="0,0,24x16")
+    assert views["cycles"].iloc[0] == degs.run("degs-16", SCENE, width=32, views=[0, 1], crop="0,0,24x16").cycles
+    eyes = degs.compare("degs-16", SCENE, width=32, eyes=0.1, units_per_metre=2)
+    assert eyes["cycles"].iloc[0] == degs.run("degs-16", SCENE, width=32, eyes=0.2).cycles
+    others = degs.compare("degs-16", SCENE, width=32, views=[2, 1])
+    assert others["cycles"].iloc[0] == degs.run("degs-16", SCENE, width=32, views=[2, 1]).cycles
+
+
 def test_designs_that_cannot_be_built_are_listed():
     frame = degs.sweep("degs-64", {"scheduler.reuse_cycles": [1, 5]}, SCENE, width=32)
     assert frame["scheduler.reuse_cycles"].tolist() == [degs.Design("degs-64").scheduler.reuse_cycles, 5]

@@ -80,6 +80,9 @@ AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
     run.workload = facts_of(frame);
     run.warnings = scene.notes;
     run.warnings.insert(run.warnings.end(), config.warnings.begin(), config.warnings.end());
+    for (std::string& sentence : lens_warnings(frame.camera, frame.projection)) {
+        run.warnings.push_back(std::move(sentence));
+    }
     for (std::string& sentence : near_plane_warnings({&frame})) {
         run.warnings.push_back(std::move(sentence));
     }

@@ -4,9 +4,8 @@
 #include <utility>
 
 #include "degs/error.hpp"
-#include "scene/cameras/camera_path.hpp"
-#include "scene/cameras/eyes.hpp"
 #include "sim/process/stopwatch.hpp"
+#include "sim/simulation/view_group.hpp"
 #include "sim/text/progress.hpp"
 
 namespace degs::sim {
@@ -46,40 +45,17 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
         cloud();
     }
     views_ = path.group.views();
-    cameras_ = cameras_of(path);
+    PathSource source;
+    source.camera = request_.camera;
+    source.camera_at = [this](int position) {
+        ViewRequest view = request_;
+        view.camera = position;
+        return camera_of(view, scene_);
+    };
+    source.stands_still = dynamic_ != nullptr;
+    source.cloud = [this]() -> const GaussianCloud& { return cloud(); };
+    cameras_ = cameras_of_frames(path, source);
     load_s_ += load_s_ > 0 ? 0 : clock.seconds();
-}
-
-std::vector<Camera> CachedView::cameras_of(const PathRequest& path) {
-    const GroupRequest& group = path.group;
-    if (!group.cameras.empty()) {
-        std::vector<Camera> views;
-        for (const int position : group.cameras) {
-            ViewRequest view = request_;
-            view.camera = position;
-            views.push_back(camera_of(view, scene_));
-        }
-        std::vector<Camera> all;
-        for (int k = 0; k < path.frames; ++k) {
-            all.insert(all.end(), views.begin(), views.end());
-        }
-        return all;
-    }
-    const Camera camera = camera_of(request_, scene_);
-    std::vector<Camera> heads =
-        path.frames == 1 || dynamic_
-            ? std::vector<Camera>(path.frames, camera)
-            : camera_path(cloud(), camera, path.frames, path.step_degrees, path.near_plane);
-    if (!group.eyes_m) {
-        return heads;
-    }
-    std::vector<Camera> eyes;
-    for (const Camera& head : heads) {
-        for (Camera& eye : eyes_of(head, *group.eyes_m * group.units_per_metre)) {
-            eyes.push_back(std::move(eye));
-        }
-    }
-    return eyes;
 }
 
 void CachedView::open_workload(const PathRequest& path) {

@@ -48,7 +48,6 @@ public:
 
 private:
     void open_workload(const PathRequest& path);
-    std::vector<Camera> cameras_of(const PathRequest& path);
     /// A frame of the workload file.
     FrameWorkload packed_frame(const std::string& wanted_by, const ProjectionOptions& options,
                                int tile_size, TileMode mode);

@@ -124,6 +124,7 @@ void CompareSession::take(const ViewRun& started, ChildOutcome&& outcome) {
                              (started.path ? "-path.json" : ".json");
     folder.write_text(file, summary.report);
     summary.report.clear();
+    add_warnings(warnings_, summary.view.scene, summary.notes);
     add_warnings(warnings_, name, summary.warnings);
     Found& found = found_[{started.view, started.config}];
     (started.path ? found.path : found.frame) = std::move(summary);

@@ -38,17 +38,37 @@ void check_rates(const std::vector<double>& rates) {
 }
 
 void check(const MotionRequest& motion) {
-    if (motion.poses.empty() && (motion.in_scene || motion.units_per_metre != 1)) {
-        throw InputError("--in-scene and --units-per-metre are for recorded poses: --poses is "
-                         "missing.");
+    const bool has_units = motion.eyes.units_per_metre != 1;
+    if (motion.poses.empty() && motion.in_scene) {
+        throw InputError("--in-scene is for recorded poses: --poses is missing.");
+    }
+    if (motion.poses.empty() && !motion.eyes.eyes_m && has_units) {
+        throw InputError("--units-per-metre is for recorded poses and for eyes: --poses or --eyes "
+                         "is missing.");
     }
     if (!motion.poses.empty() && motion.between != 0) {
         throw InputError("--between is for a path through cameras; recorded poses have dates.");
     }
-    if (motion.in_scene && motion.units_per_metre != 1) {
+    if (motion.in_scene && !motion.eyes.eyes_m && has_units) {
         throw InputError("--in-scene takes poses as they are, in scene units; --units-per-metre "
-                         "is for poses in metres.");
+                         "is for poses in metres, and for --eyes.");
     }
+}
+
+/// The designs; one that keeps lists begins a frame when the one before is in memory, as a head
+/// waits for a display.
+std::vector<NamedConfig> loaded_designs(const MotionOptions& options) {
+    std::vector<NamedConfig> designs =
+        load_configs(options.configs, options.overrides, options.memory);
+    std::vector<std::string> overrides = options.overrides;
+    for (const NamedConfig& design : designs) {
+        if (design.config.accelerator().keeps_lists()) {
+            overrides.push_back(design.name + ":frames_in_flight=1");
+        }
+    }
+    return overrides.size() == options.overrides.size()
+               ? designs
+               : load_configs(options.configs, overrides, options.memory);
 }
 
 void run(const MotionOptions& options) {
@@ -58,13 +78,15 @@ void run(const MotionOptions& options) {
     check(options.motion);
     check_view(options.motion.view);
     CompareRequest request;
-    request.configs = load_configs(options.configs, options.overrides, options.memory);
+    request.configs = loaded_designs(options);
+    request.consecutive = true;
     request.scenes = {options.motion.view.scene};
     request.camera_file = options.motion.view.camera_file;
     request.analytic = is_analytic(options.fidelity);
     request.array_only = options.array_only;
     request.reference = false;
     request.jobs = options.jobs;
+    request.path.group = options.motion.eyes;
     check_estimates(request);
     const OutputFolder out(options.out, motion_files());
     MotionWords words;
@@ -73,7 +95,8 @@ void run(const MotionOptions& options) {
         const MotionPath path = motion_path(options.motion, view.scene, motion.rates_hz.front());
         motion.times_s = path.times_s;
         request.views = path.cameras;
-        words = {view.scene.name, size_words(view.camera), request.analytic};
+        words = {view.scene.name, size_words(view.camera), request.analytic,
+                 options.motion.eyes.eyes_m};
     }
     request.cameras.emplace(request.views.size());
     std::iota(request.cameras->begin(), request.cameras->end(), 0);
@@ -93,10 +116,11 @@ void add_path_of_motion_options(CLI::App& command, MotionRequest& motion) {
                     "path goes through the scene's cameras, from --camera on")
         ->type_name("FILE");
     command
-        .add_option("--units-per-metre", motion.units_per_metre,
-                    "scene units for a metre of the recorded poses")
-        ->check(CLI::Range(1e-6, 1e6))
+        .add_option("--units-per-metre", motion.eyes.units_per_metre,
+                    "scene units for a metre of the recorded poses and of --eyes")
+        ->check(CLI::Range(kLeastUnitsPerMetre, kMostUnitsPerMetre))
         ->capture_default_str();
+    add_eyes_option(command, motion.eyes);
     command.add_flag("--in-scene", motion.in_scene,
                      "the poses are those of the camera in the scene; else the head starts at "
                      "--camera");

@@ -78,6 +78,16 @@ void judge(DesignMotion& design, const Motion& motion) {
 
 } // namespace
 
+std::optional<double> mean_of_frames(const std::vector<std::optional<double>>& values) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const std::optional<double>& value : values) {
+        sum += value.value_or(0);
+        count += value ? 1 : 0;
+    }
+    return count == 0 ? std::nullopt : std::optional(sum / ratio_of(count, 1));
+}
+
 double nearest_rank(std::vector<double> values, double share) {
     const long rank = std::lround(std::ceil(share * ratio_of(values.size(), 1) - kDateRounding));
     const auto place = values.begin() + (std::max(rank, 1L) - 1);

@@ -33,9 +33,11 @@ struct LatencyRanks {
 
 struct DesignMotion {
     std::string name;
-    std::vector<std::optional<double>> ms; ///< latency of each frame; none: its run has failed
-    std::optional<LatencyRanks> ranks{};   ///< of the frames that there are
-    std::vector<DisplayResult> displays{}; ///< by rate; empty if a frame is missing
+    std::vector<std::optional<double>> ms;      ///< latency of each frame; none: its run has failed
+    std::vector<std::optional<double>> bytes{}; ///< that each frame reads and writes; none:
+                                                ///< likewise, or memory without limit
+    std::optional<LatencyRanks> ranks{};        ///< of the frames that there are
+    std::vector<DisplayResult> displays{};      ///< by rate; empty if a frame is missing
 };
 
 struct Motion {
@@ -43,6 +45,9 @@ struct Motion {
     std::vector<double> rates_hz;
     std::vector<DesignMotion> designs;
 };
+
+/// The mean of the values that there are; nothing if there is none.
+std::optional<double> mean_of_frames(const std::vector<std::optional<double>>& values);
 
 /// The value that `share` of the values do not exceed; 0 < share <= 1. There is one at least.
 double nearest_rank(std::vector<double> values, double share);

@@ -31,6 +31,9 @@ nlohmann::ordered_json design_json(const DesignMotion& design) {
                               {"worst", ranks.worst},
                               {"worst_frame", ranks.worst_frame}};
     }
+    if (const std::optional<double> bytes = mean_of_frames(design.bytes)) {
+        json["bytes_per_frame"] = *bytes;
+    }
     json["displays"] = nlohmann::ordered_json::array();
     for (const DisplayResult& display : design.displays) {
         json["displays"].push_back(display_json(display));
@@ -48,12 +51,19 @@ std::string text_of(const MotionTable& table) {
 
 } // namespace
 
+std::string size_words(const MotionWords& words) {
+    return (words.eyes_m ? "2 × " : "") + words.size;
+}
+
 nlohmann::ordered_json motion_json(const MotionWords& words, const Motion& motion) {
     nlohmann::ordered_json json;
     json["schema"] = {{"name", "degs-motion"}, {"version", 1}};
     json["tool"] = tool_json();
     json["scene"] = words.scene;
     json["size"] = words.size;
+    if (words.eyes_m) {
+        json["eyes_m"] = *words.eyes_m;
+    }
     json["fidelity"] = words.estimated ? "analytic" : "exact";
     json["frames"] = motion.times_s.size();
     json["designs"] = nlohmann::ordered_json::array();
@@ -80,13 +90,16 @@ std::string motion_csv(const Motion& motion) {
 }
 
 MotionTable latency_table(const Motion& motion) {
-    MotionTable table{{"latency, ms", "P50", "P95", "P99", "worst", "in frame"}, {}};
+    MotionTable table{{"latency, ms", "P50", "P95", "P99", "worst", "in frame", "MB per frame"},
+                      {}};
     for (const DesignMotion& design : motion.designs) {
         if (design.ranks) {
             const LatencyRanks& ranks = *design.ranks;
+            const std::optional<double> bytes = mean_of_frames(design.bytes);
             table.rows.push_back({design.name, three_digits(ranks.p50), three_digits(ranks.p95),
                                   three_digits(ranks.p99), three_digits(ranks.worst),
-                                  std::to_string(ranks.worst_frame)});
+                                  std::to_string(ranks.worst_frame),
+                                  bytes ? three_digits(*bytes * 1e-6) : ""});
         }
     }
     return table;
@@ -112,7 +125,7 @@ MotionTable display_table(const Motion& motion) {
 }
 
 std::string motion_text(const MotionWords& words, const Motion& motion) {
-    return words.scene + " · " + words.size + " · " + std::to_string(motion.times_s.size()) +
+    return words.scene + " · " + size_words(words) + " · " + std::to_string(motion.times_s.size()) +
            (motion.times_s.size() == 1 ? " frame" : " frames") +
            (words.estimated ? " · estimated" : "") + "\n" + text_of(latency_table(motion)) + "\n" +
            text_of(display_table(motion));

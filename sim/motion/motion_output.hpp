@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,13 @@ namespace degs::sim {
 
 /// Words about what was rendered, for headings.
 struct MotionWords {
-    std::string scene, size; ///< "flowers", "640×427"
-    bool estimated = false;  ///< by the analytic model
+    std::string scene, size;        ///< "flowers", "640×427"
+    bool estimated = false;         ///< by the analytic model
+    std::optional<double> eyes_m{}; ///< distance of the two views of each frame, m; empty: one view
 };
+
+/// "640×427", or "2 × 640×427" for eyes.
+std::string size_words(const MotionWords& words);
 
 /// A table in words: for terminals and for the page.
 struct MotionTable {

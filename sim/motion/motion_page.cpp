@@ -32,7 +32,7 @@ std::string html_of(const MotionTable& table) {
 } // namespace
 
 std::string motion_page(const MotionWords& words, const Motion& motion) {
-    const std::string title = "Head motion · " + words.scene + " · " + words.size +
+    const std::string title = "Head motion · " + words.scene + " · " + size_words(words) +
                               (words.estimated ? " (estimates)" : "");
     return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
            "name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +

@@ -50,7 +50,7 @@ MotionPath along_poses(const MotionRequest& request, const Scene& scene, double 
     const Camera first = camera_of(request.view, scene);
     std::vector<Pose> poses = read_poses(request.poses);
     if (!request.in_scene) {
-        poses = started_at(poses, pose_of(first, 0), request.units_per_metre);
+        poses = started_at(poses, pose_of(first, 0), request.eyes.units_per_metre);
     }
     MotionPath path;
     for (const Pose& pose : sampled(poses, hz, request.frames)) {

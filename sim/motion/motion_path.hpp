@@ -12,12 +12,12 @@ namespace degs::sim {
 
 /// Where the views of a path come from.
 struct MotionRequest {
-    ViewRequest view;  ///< the camera is the first one
-    std::string poses; ///< file of recorded poses; empty: through the cameras from the first on
-    double units_per_metre = 1; ///< scene units
-    bool in_scene = false;      ///< poses are those of the camera in the scene
-    int between = 0;            ///< frames between two cameras
-    std::optional<int> frames;  ///< at most; empty: all
+    ViewRequest view;      ///< the camera is the first one
+    std::string poses;     ///< file of recorded poses; empty: through the cameras from the first on
+    GroupRequest eyes;     ///< of the head; its scene units for a metre are those of the poses, too
+    bool in_scene = false; ///< poses are those of the camera in the scene
+    int between = 0;       ///< frames between two cameras
+    std::optional<int> frames; ///< at most; empty: all
 };
 
 struct MotionPath {

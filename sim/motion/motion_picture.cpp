@@ -26,7 +26,7 @@ struct Axes {
 };
 
 std::string title_of(const std::string& what, const MotionWords& words) {
-    return what + " · " + words.scene + " · " + words.size +
+    return what + " · " + words.scene + " · " + size_words(words) +
            (words.estimated ? " · estimated" : "");
 }
 

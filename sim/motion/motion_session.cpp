@@ -42,13 +42,18 @@ MotionSession::MotionSession(const CompareRequest& request, const OutputFolder& 
              },
              [this](const std::vector<std::string>& running) { progress_.show(running); }}) {
     for (const NamedConfig& config : request.configs) {
-        motion_.designs.push_back(
-            {config.name, std::vector<std::optional<double>>(motion_.times_s.size())});
+        motion_.designs.push_back({config.name,
+                                   std::vector<std::optional<double>>(motion_.times_s.size()),
+                                   std::vector<std::optional<double>>(motion_.times_s.size())});
     }
 }
 
 const Motion& MotionSession::run() {
-    progress_.plan(motion_.times_s.size() * request_.configs.size());
+    for (std::size_t config = 0; config < request_.configs.size(); ++config) {
+        const std::size_t frames = motion_.times_s.size();
+        const bool follows = ViewRuns::follows(request_, config, 1);
+        progress_.plan(follows ? 2 * frames - 1 : frames);
+    }
     interrupted_ = !runs_.run_scene(0, request_.cameras);
     interrupted_ = !runs_.finish();
     progress_.clear();
@@ -88,8 +93,40 @@ void MotionSession::take(const ViewRun& run, const ChildOutcome& outcome) {
     }
     const RunSummary summary = summary_from(outcome.output);
     found_ = true;
+    add_warnings(warnings_, summary.view.scene, summary.notes);
     add_warnings(warnings_, request_.configs[run.config].name, summary.warnings);
-    motion_.designs[run.config].ms[run.camera] = summary.measures[Measure::LatencyMs];
+    put(run, summary.measures);
+}
+
+/// A frame that follows another one is what both take beyond the other one alone.
+void MotionSession::put(const ViewRun& run, const Measures& measures) {
+    DesignMotion& design = motion_.designs[run.config];
+    const auto bytes_of = [](const Measures& m) -> std::optional<double> {
+        const auto& read = m[Measure::DramRead];
+        const auto& written = m[Measure::DramWritten];
+        return read && written ? std::optional(*read + *written) : std::nullopt;
+    };
+    if (!ViewRuns::follows(request_, run.config, run.camera)) {
+        design.ms[run.camera] = measures[Measure::LatencyMs];
+        design.bytes[run.camera] = bytes_of(measures);
+        return;
+    }
+    const auto [half, first] = halves_.try_emplace({run.config, run.camera}, run.path, measures);
+    if (first) {
+        return;
+    }
+    const Measures& both = run.path ? measures : half->second.second;
+    const Measures& alone = run.path ? half->second.second : measures;
+    const double clock = request_.configs[run.config].config.accelerator().clock_ghz;
+    constexpr double kMsPerNs = 1e-6;
+    if (both[Measure::Cycles] && alone[Measure::Cycles]) {
+        design.ms[run.camera] =
+            (*both[Measure::Cycles] - *alone[Measure::Cycles]) / clock * kMsPerNs;
+    }
+    if (const auto all = bytes_of(both), before = bytes_of(alone); all && before) {
+        design.bytes[run.camera] = *all - *before;
+    }
+    halves_.erase(half);
 }
 
 void MotionSession::write() {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/motion/motion.hpp"
@@ -37,6 +39,7 @@ public:
 private:
     void end(const ViewRun& run, ChildOutcome&& outcome);
     void take(const ViewRun& run, const ChildOutcome& outcome);
+    void put(const ViewRun& run, const Measures& measures);
     void write();
     Failure interruption() const;
 
@@ -44,6 +47,8 @@ private:
     const OutputFolder& out_;
     MotionWords words_;
     Motion motion_;
+    /// By configuration and camera: what the first of two runs has found.
+    std::map<std::pair<std::size_t, int>, std::pair<bool, Measures>> halves_;
     std::vector<std::string> warnings_;
     std::vector<Failure> failures_;
     std::optional<Failure> unwritten_;

@@ -164,7 +164,8 @@ Comparison compare(const std::vector<std::string>& configs, const std::vector<Co
 
 std::string view_words(const ComparedView& view) {
     return view.scene + " · camera " + std::to_string(view.camera) + " · " +
-           std::to_string(view.width) + "×" + std::to_string(view.height);
+           (view.views > 1 ? std::to_string(view.views) + " × " : "") + std::to_string(view.width) +
+           "×" + std::to_string(view.height);
 }
 
 std::string family_of(const ComparedConfig& config) {

@@ -80,6 +80,9 @@ ordered_json view_json(const ComparedView& view) {
                          {"gaussians", view.gaussians},
                          {"visible", view.visible},
                          {"fragments", value_or_null(view.fragments)}};
+    if (view.views > 1) {
+        json["views_per_frame"] = view.views;
+    }
     if (view.p99_tile_candidates) { // of several frames
         json["changes"] = {{"active_overlap", value_or_null(view.active_overlap)},
                            {"tile_churn", value_or_null(view.tile_churn)},

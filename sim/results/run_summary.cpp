@@ -27,6 +27,7 @@ void each_field(Fields& fields, Summary& summary) {
     fields("view.camera", summary.view.camera);
     fields("view.width", summary.view.width);
     fields("view.height", summary.view.height);
+    fields("view.views", summary.view.views);
     fields("view.gaussians", summary.view.gaussians);
     fields("view.visible", summary.view.visible);
     fields("view.fragments", summary.view.fragments);
@@ -43,6 +44,7 @@ void each_field(Fields& fields, Summary& summary) {
     fields("limited_by", summary.limited_by);
     fields("stages", summary.stages);
     fields("parts", summary.parts);
+    fields("notes", summary.notes);
     fields("warnings", summary.warnings);
     fields("report", summary.report);
 }
@@ -81,6 +83,13 @@ Statistic part_statistic(const char* path, const char* unit, const char* sentenc
     return row;
 }
 
+/// The warnings of a run begin with the notes of its scene.
+void set_warnings(const SceneFacts& scene, const std::vector<std::string>& warnings,
+                  RunSummary& summary) {
+    summary.notes = scene.notes;
+    summary.warnings.assign(warnings.begin() + scene.notes.size(), warnings.end());
+}
+
 } // namespace
 
 std::vector<Statistic> part_statistics() {
@@ -98,6 +107,7 @@ RunSummary summary_of(const RunResult& result, int camera) {
     summary.pes = result.accelerator.pes;
     summary.tile_size = result.workload.tile_size;
     summary.view = view_of(result.scene, result.camera, result.workload, camera);
+    summary.view.views = std::max<int>(1, static_cast<int>(result.views.size()));
     if (result.workload.reference) {
         summary.view.fragments = result.workload.reference->fragments;
     }
@@ -121,7 +131,7 @@ RunSummary summary_of(const RunResult& result, int camera) {
         summary.stages.emplace_back(stage.name, stage.busy);
     }
     summary.parts = parts_of(run);
-    summary.warnings = result.warnings;
+    set_warnings(result.scene, result.warnings, summary);
     return summary;
 }
 
@@ -138,7 +148,7 @@ RunSummary summary_of(const AnalyticRun& run, int camera) {
         const double busy = unit.preparing + unit.rendering;
         summary.stages.emplace_back(unit.name, busy / std::max(run.frame.cycles, busy));
     }
-    summary.warnings = run.warnings;
+    set_warnings(run.scene, run.warnings, summary);
     return summary;
 }
 

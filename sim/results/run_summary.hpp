@@ -22,6 +22,7 @@ struct ComparedView {
     std::optional<std::size_t> fragments; ///< of the reference
     /// The next four of all frames, if there are several; see FrameChanges.
     std::optional<double> active_overlap{}, tile_churn{}, p99_tile_candidates{}, footprint_gini{};
+    int views = 1;        ///< of a frame
     bool dynamic = false; ///< frames of a scene that changes; not part of the message
 };
 
@@ -40,7 +41,8 @@ struct RunSummary {
     std::vector<std::pair<std::string, double>> stages; ///< with the share of the run they worked
     /// Numbers of single buffers and blocks by their names, see part_statistics().
     std::vector<std::pair<std::string, double>> parts;
-    std::vector<std::string> warnings; ///< sentences; see warnings.hpp
+    std::vector<std::string> notes;    ///< sentences about the scene, the same in all its runs
+    std::vector<std::string> warnings; ///< other sentences; see warnings.hpp
     std::string report;                ///< report.json of the run; empty if nobody wants it
 };
 
@@ -54,7 +56,7 @@ RunSummary summary_of(const RunResult& result, int camera);
 RunSummary summary_of(const AnalyticRun& run, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 11;
+constexpr int kSummaryVersion = 13;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

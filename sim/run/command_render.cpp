@@ -129,6 +129,7 @@ void run(const RenderOptions& options) {
         old_tile_maps(out, {}));
     const std::uint64_t fragments = result.workload.reference->fragments;
     print_warnings(result.scene.notes);
+    print_warnings(lens_warnings(view.camera, result.workload.projection));
     print_warnings(near_plane_warnings(result.workload.culled, result.workload.projection,
                                        result.workload.gaussians));
     print(layout({{"scene", scene_words(result.scene) + " · " + grouped(result.workload.visible) +

@@ -49,9 +49,6 @@ struct RunOptions {
     std::string memory_trace; ///< file; empty: none
 };
 
-const std::string kSeveralViews =
-    "Estimates are of frames with one view, so --eyes and --views cannot be combined with ";
-
 /// What needs every tile cannot come from a sample.
 std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
     std::optional<SamplingRequest> sampling =

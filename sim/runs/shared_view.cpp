@@ -15,26 +15,42 @@
 
 namespace degs::sim {
 
-void SharedView::render_reference(TileMode mode) {
+void SharedView::render_references(TileMode mode) {
     const FrameWorkload& frame = frames.front();
     const decltype(reference_kind) kind{mode == TileMode::Exact ? 0 : frame.tile_size, mode,
                                         rule_kind(frame.projection)};
-    if (!reference || reference_kind != kind) {
-        reference = make_reference(*cloud, frame, workload_s);
-        reference_kind = kind;
+    if (!references.empty() && reference_kind == kind) {
+        return;
+    }
+    references.clear();
+    for (int v = 0; v < views; ++v) {
+        references.push_back(make_reference(*cloud, frames[v], workload_s));
+    }
+    reference_kind = kind;
+}
+
+void SharedView::share_colours() {
+    const auto step = static_cast<std::size_t>(views);
+    for (std::size_t first = 0; first < frames.size(); first += step) {
+        if (dynamic) {
+            sim::share_colours(dynamic->frame(static_cast<int>(first / step)), frames, first, step);
+        } else {
+            sim::share_colours(*cloud, frames, first, step);
+        }
     }
 }
 
 // Most designs of a study draw the same image, whose error is found once.
-ImageError SharedView::error_of(const Image& image) const {
+ImageError SharedView::error_of(const Image& image, std::size_t view) const {
     constexpr int kMostImages = 8; // of different numbers
     const std::string_view colours(reinterpret_cast<const char*>(image.rgb.data()),
                                    image.rgb.size() * sizeof(float));
     for (int number = 0; kept != nullptr && number < kMostImages; ++number) {
-        const std::string name = "image " + std::to_string(number);
+        const std::string name =
+            "image " + std::to_string(number) + " of view " + std::to_string(view);
         const std::string_view known = kept->find(name);
         if (known.data() == nullptr) {
-            const ImageError error = compare_images(reference->image, image);
+            const ImageError error = compare_images(references[view].image, image);
             std::string bytes(reinterpret_cast<const char*>(&error), sizeof error);
             kept->put(name, bytes.append(colours));
             return error;
@@ -45,34 +61,39 @@ ImageError SharedView::error_of(const Image& image) const {
             return error;
         }
     }
-    return compare_images(reference->image, image);
+    return compare_images(references[view].image, image);
 }
 
 std::string SharedView::run(const RunRequest& request, bool path) const {
     const Stopwatch wall;
     Progress::silence();
     std::vector<const FrameWorkload*> wanted;
+    const auto per_frame = static_cast<std::size_t>(views);
     for (const FrameWorkload& frame : frames) {
-        if (path || wanted.empty()) {
+        if (path || wanted.size() < per_frame) {
             wanted.push_back(&frame);
         }
     }
     RunResult result = run_frames(request, wanted);
     put_scene(scene, result);
     if (request.reference && !path) {
-        judge(result, *reference,
-              [this](const Image&, const Image& image) { return error_of(image); });
+        judge(result, references.front(),
+              [this](const Image&, const Image& image) { return error_of(image, 0); });
+        for (std::size_t v = 0; v < result.views.size(); ++v) {
+            judge_view(result, v, references[v],
+                       [this, v](const Image&, const Image& image) { return error_of(image, v); });
+        }
     }
     result.host.load_s = load_s;
     result.host.workload_s = workload_s;
     result.host.wall_s = wall.seconds();
     RunSummary summary = summary_of(result, camera);
-    if (frames.size() > 1) {
+    if (frames.size() > per_frame) {
         std::vector<const FrameWorkload*> all;
         for (const FrameWorkload& frame : frames) {
             all.push_back(&frame);
         }
-        const FrameChanges changes = frame_changes(all);
+        const FrameChanges changes = frame_changes(first_views(all, per_frame));
         summary.view.active_overlap = changes.active_overlap;
         summary.view.tile_churn = changes.tile_churn;
         summary.view.p99_tile_candidates = changes.p99_tile_candidates;

@@ -18,16 +18,21 @@ struct SharedView {
     SceneFacts scene;
     const GaussianCloud* cloud = nullptr;
     std::unique_ptr<DynamicScene> dynamic; ///< if the scene changes and several frames are wanted
-    std::vector<Camera> cameras;           ///< of the path, the view's own first
+    std::vector<Camera> cameras;           ///< of the path, see cameras_of_frames()
+    int views = 1;                         ///< of a frame
+    int frames_of_path() const { return static_cast<int>(cameras.size()) / views; }
     double load_s = 0, workload_s = 0;
-    std::vector<FrameWorkload> frames;  ///< of the present group
-    std::unique_ptr<SharedBytes> kept;  ///< what its simulations keep for each other, if several
-    std::optional<Reference> reference; ///< of `reference_kind`
+    std::vector<FrameWorkload> frames; ///< of the present group
+    std::unique_ptr<SharedBytes> kept; ///< what its simulations keep for each other, if several
+    std::vector<Reference> references; ///< of the first frame's views, of `reference_kind`
     /// What the image depends on beside the view: side and mode of tiles, and the rules.
     std::tuple<int, TileMode, RuleKind> reference_kind;
 
     /// With exact tiles the image does not depend on their size.
-    void render_reference(TileMode mode);
+    void render_references(TileMode mode);
+
+    /// Gives the views of each frame the colours that they share.
+    void share_colours();
 
     /// In the child: the summary, as a message, of a run of the whole path, or of its first frame
     /// alone, which is compared with the reference.
@@ -36,7 +41,7 @@ struct SharedView {
     std::string estimate(const RunConfig& config) const;
 
 private:
-    ImageError error_of(const Image& image) const;
+    ImageError error_of(const Image& image, std::size_t view) const;
 };
 
 } // namespace degs::sim

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <tuple>
 
-#include "scene/cameras/camera_path.hpp"
 #include "sim/runs/shared_view.hpp"
+#include "sim/simulation/view_group.hpp"
 
 namespace degs::sim {
 namespace {
@@ -14,13 +15,27 @@ namespace {
 // Bytes that the simulations of a group keep for each other: half of a 4K frame and more.
 constexpr std::size_t kMostKept = std::size_t{1} << 30U;
 
-/// Configurations that want the same frames.
-std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedConfig>& all,
+bool shares_colours(const AcceleratorConfig& config, int views) {
+    return views > 1 && config.view_sharing() == ViewSharing::Colour;
+}
+
+/// What configurations have in common that share frames: their kind, whether views share colours,
+/// and whether they follow the frames of the view before.
+using GroupKind = std::tuple<FrameKind, bool, bool>;
+
+bool follows_in(const GroupKind& kind) {
+    return std::get<2>(kind);
+}
+
+std::map<GroupKind, std::vector<std::size_t>> groups_of(const CompareRequest& request,
                                                         const std::vector<std::size_t>& configs,
-                                                        const SceneTraits& traits) {
-    std::map<FrameKind, std::vector<std::size_t>> groups;
-    for (std::size_t c : configs) {
-        groups[frame_kind(all[c].config.accelerator(), traits)].push_back(c);
+                                                        const SceneTraits& traits, int camera) {
+    std::map<GroupKind, std::vector<std::size_t>> groups;
+    for (const std::size_t c : configs) {
+        const AcceleratorConfig& design = request.configs[c].config.accelerator();
+        const bool shared = shares_colours(design, request.path.group.views());
+        groups[{frame_kind(design, traits), shared, ViewRuns::follows(request, c, camera)}]
+            .push_back(c);
     }
     return groups;
 }
@@ -111,6 +126,42 @@ ViewRuns::Configs ViewRuns::wanted_configs(const ViewRun& place) const {
     return configs;
 }
 
+bool ViewRuns::follows(const CompareRequest& request, std::size_t config, int camera) {
+    return request.consecutive && camera > 0 && !request.analytic &&
+           request.configs[config].config.accelerator().keeps_lists();
+}
+
+std::size_t ViewRuns::runs_of(const ViewRun& place, const Configs& configs) const {
+    std::size_t runs = 0;
+    for (const std::size_t config : configs) {
+        runs += request_.path.frames > 1 || follows(request_, config, place.camera) ? 2 : 1;
+    }
+    return runs;
+}
+
+Camera ViewRuns::camera_at(const Scene& scene, const ImageSize& size, int position) const {
+    return resize_and_crop(select_camera(scene, position), size.width, size.height, request_.crop);
+}
+
+std::vector<Camera> ViewRuns::cameras_of(const Scene& scene, const ViewRun& place,
+                                         bool stands_still, bool follows) const {
+    PathSource source;
+    source.camera_at = [this, &scene, &place](int position) {
+        return camera_at(scene, request_.sizes[place.size], position);
+    };
+    source.cloud = [&scene]() -> const GaussianCloud& { return scene.cloud; };
+    source.stands_still = stands_still;
+    PathRequest path = request_.path;
+    path.near_plane = nearest_plane(request_.configs);
+    std::vector<Camera> cameras;
+    for (int camera = follows ? place.camera - 1 : place.camera; camera <= place.camera; ++camera) {
+        source.camera = camera;
+        const std::vector<Camera> frames = cameras_of_frames(path, source);
+        cameras.insert(cameras.end(), frames.begin(), frames.end());
+    }
+    return cameras;
+}
+
 void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
     const Configs configs = wanted_configs(place);
     if (configs.empty()) {
@@ -120,8 +171,10 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
     const std::size_t before = started_.size();
     try {
         const ImageSize& size = request_.sizes[place.size];
-        const Camera first = resize(select_camera(scene, place.camera), size.width, size.height);
-        place.words += " · " + std::to_string(first.width) + "×" + std::to_string(first.height);
+        const Camera first = camera_at(scene, size, place.camera);
+        const int views = request_.path.group.views();
+        place.words += " · " + (views > 1 ? std::to_string(views) + " × " : std::string()) +
+                       std::to_string(first.width) + "×" + std::to_string(first.height);
         place.view = views_++;
         place.folder = std::to_string(place.view + 1) + "-" + file_name(scene.name) + "-camera" +
                        std::to_string(place.camera) + "-" + std::to_string(first.width) + "x" +
@@ -133,21 +186,19 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
         if (request_.path.frames > 1) {
             shared.dynamic = open_dynamic_scene(request_.scenes[place.scene]);
         }
-        shared.cameras = shared.dynamic ? std::vector<Camera>(request_.path.frames, first)
-                                        : camera_path(scene.cloud, first, request_.path.frames,
-                                                      request_.path.step_degrees,
-                                                      nearest_plane(request_.configs));
+        shared.views = views;
         place.dynamic = shared.dynamic != nullptr;
         shared.load_s = load_s;
-        for (const auto& [kind, members] : groups_of(request_.configs, configs, scene.traits)) {
+        for (const auto& [kind, members] :
+             groups_of(request_, configs, scene.traits, place.camera)) {
             if (!interrupted_) {
+                shared.cameras = cameras_of(scene, place, place.dynamic, follows_in(kind));
                 run_group(shared, place, members);
             }
         }
     } catch (...) {
-        const std::size_t runs = configs.size() * (request_.path.frames > 1 ? 2 : 1);
         hooks_.view_failed(place, failure_of(std::current_exception()),
-                           runs - (started_.size() - before));
+                           runs_of(place, configs) - (started_.size() - before));
     }
 }
 
@@ -160,12 +211,16 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
     shared.frames.clear(); // before the next are made; children have copies of their own
     shared.kept = nullptr;
     shared.workload_s = 0;
-    shared.frames = shared.dynamic ? make_workloads(*shared.dynamic, shared.scene.traits,
-                                                    shared.cameras, wish, shared.workload_s)
-                                   : make_workloads(*shared.cloud, shared.scene.traits,
-                                                    shared.cameras, wish, shared.workload_s);
+    shared.frames = shared.dynamic
+                        ? make_workloads(*shared.dynamic, shared.scene.traits, shared.cameras, wish,
+                                         shared.workload_s, shared.views)
+                        : make_workloads(*shared.cloud, shared.scene.traits, shared.cameras, wish,
+                                         shared.workload_s);
     if (request_.reference && !request_.sampling) {
-        shared.render_reference(wish.tile_mode());
+        shared.render_references(wish.tile_mode());
+    }
+    if (shares_colours(wish, shared.views)) { // the references have the colours of each view
+        shared.share_colours();
     }
     if (configs.size() > 1 && !request_.analytic) {
         shared.kept = std::make_unique<SharedBytes>(kMostKept);
@@ -174,7 +229,7 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
         ViewRun run = place;
         run.config = config;
         start(shared, run);
-        if (shared.frames.size() > 1) {
+        if (shared.frames_of_path() > 1) {
             run.path = true;
             start(shared, run);
         }
@@ -192,9 +247,10 @@ void ViewRuns::start(const SharedView& shared, ViewRun run) {
     request.build.kept = shared.kept.get();
     request.reference = request_.reference && !run.path && !request_.sampling;
     request.sampling = request_.sampling;
+    request.views = shared.views;
     run.name = request_.configs[run.config].name + ", " + run.words;
     if (run.path) {
-        run.name += ", " + std::to_string(shared.frames.size()) + " frames";
+        run.name += ", " + std::to_string(shared.frames_of_path()) + " frames";
     }
     const bool path = run.path;
     run.clock = Stopwatch();

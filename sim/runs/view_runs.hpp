@@ -21,8 +21,9 @@ struct SharedView;
 struct ViewRun {
     std::size_t scene = 0, size = 0, config = 0; ///< positions in the request
     int camera = 0;                              ///< position in the scene's list
-    bool path = false;                           ///< of all frames, else of the first one alone
-    bool dynamic = false;                        ///< the frames are those of a scene that changes
+    /// All frames are run, else the first one alone, which is the view before of consecutive ones.
+    bool path = false;
+    bool dynamic = false;      ///< the frames are those of a scene that changes
     std::size_t view = 0;      ///< number of the view, in the order in which they were begun
     std::string words, folder; ///< of the view: for people, and of its reports
     std::string name;          ///< of the run
@@ -66,12 +67,18 @@ public:
     void stop() { pool_.stop(); }
     /// Runs of a view on which every configuration is wanted.
     std::size_t per_view() const;
+    /// A view of consecutive ones is a run of the view before alone, and one of both.
+    static bool follows(const CompareRequest& request, std::size_t config, int camera);
 
 private:
     using Configs = std::vector<std::size_t>;
 
     Scene load(const std::string& spec, double& seconds) const;
     Configs wanted_configs(const ViewRun& place) const;
+    std::size_t runs_of(const ViewRun& place, const Configs& configs) const;
+    Camera camera_at(const Scene& scene, const ImageSize& size, int position) const;
+    std::vector<Camera> cameras_of(const Scene& scene, const ViewRun& place, bool stands_still,
+                                   bool follows) const;
     void run_view(const Scene& scene, ViewRun place, double load_s);
     void run_group(SharedView& shared, const ViewRun& place, const Configs& configs);
     void start(const SharedView& shared, ViewRun run);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/visible_text.hpp"
+#include "scene/cameras/lens_terms.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/terminal.hpp"
@@ -21,6 +22,14 @@ namespace {
 
 std::string triple_words(const glm::dvec3& v) {
     return "(" + three_digits(v.x) + ", " + three_digits(v.y) + ", " + three_digits(v.z) + ")";
+}
+
+/// " · lens OPENCV, 12.3 px in the corner"; empty for a pinhole.
+std::string lens_words(const Camera& camera) {
+    return camera.lens.is_pinhole()
+               ? ""
+               : std::string(" · lens ") + camera.lens.name() + ", " +
+                     three_digits(corner_shift(camera)) + " px in the farthest corner";
 }
 
 void list_cameras(const ViewRequest& view, const std::string& out) {
@@ -57,12 +66,12 @@ std::string cameras_text(const Scene& scene) {
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const Camera& camera = scene.cameras[i];
         const glm::dvec2 angles = field_of_view(camera);
-        block.emplace_back("camera " + std::to_string(i),
-                           size_words(camera) + " " + camera.name +
-                               (scene.generated_view ? " (generated)" : "") + " · at " +
-                               triple_words(camera.position) + " · looks along " +
-                               triple_words(camera.camera_to_world[2]) + " · sees " +
-                               three_digits(angles.x) + "° × " + three_digits(angles.y) + "°");
+        block.emplace_back(
+            "camera " + std::to_string(i),
+            size_words(camera) + " " + camera.name + (scene.generated_view ? " (generated)" : "") +
+                " · at " + triple_words(camera.position) + " · looks along " +
+                triple_words(camera.camera_to_world[2]) + " · sees " + three_digits(angles.x) +
+                "° × " + three_digits(angles.y) + "°" + lens_words(camera));
     }
     return layout(block);
 }

@@ -8,7 +8,6 @@ namespace {
 
 /// All frames of a path are in memory at once; a typing error should not fill it.
 constexpr int kMostFrames = 10000;
-constexpr double kMostEyeDistance = 1000; // m
 
 } // namespace
 
@@ -31,6 +30,14 @@ CLI::Option* add_camera_file_option(CLI::App& command, std::string& file) {
                     "cameras.json, transforms.json or a COLMAP model to use instead of the cameras "
                     "beside the scene")
         ->type_name("FILE");
+}
+
+CLI::Option* add_crop_option(CLI::App& command, std::string& crop) {
+    return command
+        .add_option("--crop", crop,
+                    "part of the image that is rendered: W x H pixels from column X and row Y on; "
+                    "its pixels are those of the whole image")
+        ->type_name("X,Y,WxH");
 }
 
 CLI::Option* add_memory_option(CLI::App& command, std::string& file) {
@@ -97,11 +104,7 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
                            "image height in pixels; alone it scales the view, with --width it "
                            "crops or extends it");
     add_resolution_option(command, request.resolution)->excludes(width)->excludes(height);
-    command
-        .add_option("--crop", request.crop,
-                    "part of the image that is rendered: W x H pixels from column X and row Y on; "
-                    "its pixels are those of the whole image")
-        ->type_name("X,Y,WxH");
+    add_crop_option(command, request.crop);
 }
 
 void add_view_or_workload_options(CLI::App& command, ViewRequest& request) {
@@ -144,16 +147,19 @@ void add_path_options(CLI::App& command, PathRequest& request) {
         ->capture_default_str();
 }
 
+CLI::Option* add_eyes_option(CLI::App& command, GroupRequest& request) {
+    return command
+        .add_option("--eyes", request.eyes_m,
+                    "distance of two eyes, m: each frame has two views, half of it to the left "
+                    "and to the right of the camera")
+        ->type_name("METRES")
+        ->check(CLI::Range(0.0, kMostEyeDistance));
+}
+
 void add_group_options(CLI::App& command, GroupRequest& request) {
-    CLI::Option* const eyes =
-        command
-            .add_option("--eyes", request.eyes_m,
-                        "distance of two eyes, m: each frame has two views, half of it to the left "
-                        "and to the right of the camera")
-            ->type_name("METRES")
-            ->check(CLI::Range(0.0, kMostEyeDistance));
+    CLI::Option* const eyes = add_eyes_option(command, request);
     command.add_option("--units-per-metre", request.units_per_metre, "scene units for a metre")
-        ->check(CLI::Range(1e-6, 1e6))
+        ->check(CLI::Range(kLeastUnitsPerMetre, kMostUnitsPerMetre))
         ->needs(eyes)
         ->capture_default_str();
     CLI::Option* const views =
@@ -165,10 +171,13 @@ void add_group_options(CLI::App& command, GroupRequest& request) {
                 "what projection.shared_by_views says")
             ->type_name("POSITIONS")
             ->excludes(eyes);
-    for (const char* option : {"--camera", "--path-step", "--workload"}) {
+    for (const char* option : {"--camera", "--path-step"}) {
         views->excludes(command.get_option(option));
     }
-    eyes->excludes(command.get_option("--workload"));
+    if (CLI::Option* const workload = command.get_option_no_throw("--workload")) {
+        views->excludes(workload);
+        eyes->excludes(workload);
+    }
 }
 
 void add_sampling_options(CLI::App& command, std::optional<std::string>& within,

@@ -32,6 +32,9 @@ CLI::Option* add_camera_file_option(CLI::App& command, std::string& file);
 /// Adds --memory, the file of an LPDDR5 memory, see put_memory().
 CLI::Option* add_memory_option(CLI::App& command, std::string& file);
 
+/// Adds --crop, a part of the images.
+CLI::Option* add_crop_option(CLI::App& command, std::string& crop);
+
 /// Adds --near, the near plane of commands without a configuration.
 CLI::Option* add_near_option(CLI::App& command, double& near);
 
@@ -44,7 +47,11 @@ CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* 
 /// Adds --frames and --path-step.
 void add_path_options(CLI::App& command, PathRequest& request);
 
-/// Adds --eyes, --units-per-metre and --views, the views of each frame, to a command with --camera.
+/// Adds --eyes, the distance of the two views of each frame.
+CLI::Option* add_eyes_option(CLI::App& command, GroupRequest& request);
+
+/// Adds --eyes, --units-per-metre and --views, the views of each frame, to a command with --camera
+/// and --path-step.
 void add_group_options(CLI::App& command, GroupRequest& request);
 
 /// Adds --within and --seed, for commands that may simulate a sample of the tiles.

@@ -124,9 +124,19 @@ void judge(RunResult& result, const Reference& reference,
     result.error = compare(reference.image, result.accelerator.images.front());
 }
 
-void judge_view(RunResult& result, std::size_t view, const Reference& reference) {
+void judge_view(RunResult& result, std::size_t view, const Reference& reference,
+                const std::function<ImageError(const Image&, const Image&)>& compare) {
     result.views[view].workload.reference = reference.counts;
-    result.views[view].error = compare_images(reference.image, result.accelerator.images[view]);
+    result.views[view].error = compare(reference.image, result.accelerator.images[view]);
+}
+
+std::vector<const FrameWorkload*> first_views(const std::vector<const FrameWorkload*>& frames,
+                                              std::size_t views) {
+    std::vector<const FrameWorkload*> first;
+    for (std::size_t f = 0; f < frames.size(); f += views) {
+        first.push_back(frames[f]);
+    }
+    return first;
 }
 
 namespace {
@@ -161,16 +171,6 @@ std::optional<SampledResult> try_sample(const RunRequest& request,
     reserve.call(refusal);
 }
 
-/// The first view of every frame.
-std::vector<const FrameWorkload*> first_views(const std::vector<const FrameWorkload*>& frames,
-                                              std::size_t views) {
-    std::vector<const FrameWorkload*> first;
-    for (std::size_t f = 0; f < frames.size(); f += views) {
-        first.push_back(frames[f]);
-    }
-    return first;
-}
-
 const char* name_of(Fidelity fidelity) {
     return fidelity == Fidelity::Strict ? "strict" : "exact";
 }
@@ -194,6 +194,10 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
     }
     for (std::string& sentence :
          saturation_warnings(request.config.accelerator().data_path(), *frames.front())) {
+        result.warnings.push_back(std::move(sentence));
+    }
+    for (std::string& sentence :
+         lens_warnings(frames.front()->camera, frames.front()->projection)) {
         result.warnings.push_back(std::move(sentence));
     }
     for (std::string& sentence : near_plane_warnings(frames)) {

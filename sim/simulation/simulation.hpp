@@ -122,8 +122,14 @@ void judge(RunResult& result, const Reference& reference,
            const std::function<ImageError(const Image& reference, const Image& test)>& compare =
                compare_images);
 
-/// Fills in the reference of a later view of the first frame, and the error of its image.
-void judge_view(RunResult& result, std::size_t view, const Reference& reference);
+/// Fills in the reference of a view of the first frame, and the error of its image likewise.
+void judge_view(RunResult& result, std::size_t view, const Reference& reference,
+                const std::function<ImageError(const Image& reference, const Image& test)>&
+                    compare = compare_images);
+
+/// The first view of every frame.
+std::vector<const FrameWorkload*> first_views(const std::vector<const FrameWorkload*>& frames,
+                                              std::size_t views);
 
 /// Runs the accelerator on frames that were made for it (at least one). The caller fills in the
 /// facts of the scene, the host times of earlier steps and the comparison. Throws std::logic_error

@@ -48,6 +48,10 @@ std::string in_small_letters(std::string text) {
 
 } // namespace
 
+const std::string kSeveralViews =
+    "Estimates are of frames with one view, so several views of a frame (--eyes or --views, or "
+    "those keys of a study) cannot be combined with ";
+
 void check_positive(const char* option, std::optional<int> value) {
     if (value && *value < 1) {
         throw InputError(std::string(option) + " is " + std::to_string(*value) +
@@ -80,6 +84,14 @@ std::vector<int> group_cameras(const std::string& text) {
                          "separated by commas, as in 0,1.");
     }
     return cameras;
+}
+
+std::string positions_words(const std::vector<int>& positions) {
+    std::string text;
+    for (const int position : positions) {
+        text += (text.empty() ? "" : ",") + std::to_string(position);
+    }
+    return text;
 }
 
 int one_camera(const std::string& text) {
@@ -153,6 +165,21 @@ Camera resize(const Camera& camera, std::optional<int> width, std::optional<int>
     return resized;
 }
 
+Camera resize_and_crop(const Camera& camera, std::optional<int> width, std::optional<int> height,
+                       const std::string& crop) {
+    Camera whole = resize(camera, width, height);
+    if (crop.empty()) {
+        return whole;
+    }
+    const PixelBox part = crop_of(crop);
+    if (part.x1 >= whole.width || part.y1 >= whole.height) {
+        throw InputError("--crop is '" + crop + "', which leaves the image of " +
+                         std::to_string(whole.width) + " x " + std::to_string(whole.height) +
+                         " pixels.");
+    }
+    return whole.cropped(part);
+}
+
 void check_view(const ViewRequest& request) {
     check_positive("--width", request.width);
     check_positive("--height", request.height);
@@ -172,17 +199,8 @@ void check_view(const ViewRequest& request) {
 Camera camera_of(const ViewRequest& request, const Scene& scene) {
     const std::optional<int> height =
         request.resolution.empty() ? request.height : resolution_height(request.resolution);
-    Camera whole = resize(select_camera(scene, request.camera), request.width, height);
-    if (request.crop.empty()) {
-        return whole;
-    }
-    const PixelBox part = crop_of(request.crop);
-    if (part.x1 >= whole.width || part.y1 >= whole.height) {
-        throw InputError("--crop is '" + request.crop + "', which leaves the image of " +
-                         std::to_string(whole.width) + " x " + std::to_string(whole.height) +
-                         " pixels.");
-    }
-    return whole.cropped(part);
+    return resize_and_crop(select_camera(scene, request.camera), request.width, height,
+                           request.crop);
 }
 
 View load_view(const ViewRequest& request) {

@@ -26,6 +26,8 @@ struct ViewRequest {
 std::optional<int> camera_position(const std::string& text);
 /// At least two positions in a list of cameras, separated by commas. Throws InputError.
 std::vector<int> group_cameras(const std::string& text);
+/// "0,1": what group_cameras() reads.
+std::string positions_words(const std::vector<int>& positions);
 /// The camera position in the option of a command that renders one view. Throws InputError.
 int one_camera(const std::string& text);
 
@@ -45,6 +47,9 @@ std::vector<std::string> resolution_names();
 /// lists the names for any other.
 int resolution_height(const std::string& name);
 
+constexpr double kMostEyeDistance = 1000; ///< m
+constexpr double kLeastUnitsPerMetre = 1e-6, kMostUnitsPerMetre = 1e6;
+
 /// Several views of each frame: the eyes of a head, or cameras of the scene.
 struct GroupRequest {
     std::optional<double> eyes_m; ///< distance of two eyes, m
@@ -56,6 +61,9 @@ struct GroupRequest {
         return eyes_m ? 2 : cameras.empty() ? 1 : static_cast<int>(cameras.size());
     }
 };
+
+/// The sentence, up to the option, that refuses an estimate of frames with several views.
+extern const std::string kSeveralViews;
 
 /// A run of several frames along a camera path that starts at the view's camera.
 struct PathRequest {
@@ -78,6 +86,11 @@ View load_view(const ViewRequest& request);
 void check_view(const ViewRequest& request);
 /// The camera of the view in its size, cropped; the scene needs no Gaussians. Throws InputError.
 Camera camera_of(const ViewRequest& request, const Scene& scene);
+
+/// The camera in the size that resize() gives it, cropped unless `crop` is empty. Throws
+/// InputError.
+Camera resize_and_crop(const Camera& camera, std::optional<int> width, std::optional<int> height,
+                       const std::string& crop);
 
 /// Width alone or height alone scales the view; both give the image that size at the scale of the
 /// width, so that another aspect ratio shows more or less above and below. Throws InputError.

@@ -6,6 +6,7 @@
 
 #include "base/ratio.hpp"
 #include "base/visible_text.hpp"
+#include "scene/cameras/lens_terms.hpp"
 #include "sim/text/words.hpp"
 #include "splat/pixels/saturation.hpp"
 
@@ -43,6 +44,19 @@ std::vector<std::string> near_plane_warnings(const std::vector<const FrameWorklo
             return a->culled.near_in_view < b->culled.near_in_view;
         });
     return near_plane_warnings(worst.culled, worst.projection, worst.gaussians);
+}
+
+std::vector<std::string> lens_warnings(const Camera& camera, const ProjectionOptions& options) {
+    constexpr double kWorthAWarning = 0.01; // px
+    const double moved = corner_shift(camera);
+    // Phrased so that a distortion that is not a number is mentioned, too.
+    if (options.lens == LensRule::Camera || moved < kWorthAWarning) {
+        return {};
+    }
+    return {"The lens of camera " + std::to_string(camera.id) + " (" + camera.lens.name() +
+            ") is left out, because pipeline.rules.lens or --lens is pinhole; it moves a corner of "
+            "the image by " +
+            three_digits(moved) + " px."};
 }
 
 std::vector<std::string> hazard_warnings(const AcceleratorResult& run) {

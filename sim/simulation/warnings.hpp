@@ -19,9 +19,12 @@ std::vector<std::string> near_plane_warnings(const CullCounts& culled,
                                              std::uint64_t gaussians);
 /// The sentence on the near plane for the frame of a path that loses the most Gaussians.
 std::vector<std::string> near_plane_warnings(const std::vector<const FrameWorkload*>& frames);
+/// A sentence for a lens whose distortion the rules leave out, if that moves a corner of the image
+/// by a hundredth of a pixel or more.
+std::vector<std::string> lens_warnings(const Camera& camera, const ProjectionOptions& options);
 /// A sentence if pixels were updated again before their write-back.
 std::vector<std::string> hazard_warnings(const AcceleratorResult& run);
-/// Adds sentences about the design that is called `name`, each once.
+/// Adds sentences about the design or scene that is called `name`, each once.
 void add_warnings(std::vector<std::string>& all, const std::string& name,
                   const std::vector<std::string>& sentences);
 /// Prints them on stderr.

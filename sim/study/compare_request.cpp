@@ -39,6 +39,10 @@ std::string first_difference(const StudyViews& a, const StudyViews& b) {
         {"camera_file", a.camera_file == b.camera_file},
         {"resolutions", a.resolutions == b.resolutions},
         {"width", a.width == b.width},
+        {"crop", a.crop == b.crop},
+        {"eyes", a.path.group.eyes_m == b.path.group.eyes_m},
+        {"units_per_metre", a.path.group.units_per_metre == b.path.group.units_per_metre},
+        {"views", a.path.group.cameras == b.path.group.cameras},
         {"frames", a.path.frames == b.path.frames},
         {"path_step", a.path.step_degrees == b.path.step_degrees},
         {"fidelity", a.analytic == b.analytic},
@@ -125,9 +129,12 @@ void check_scenes(const std::vector<std::string>& scenes) {
 }
 
 std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
-                                                 std::uint64_t seed, int frames) {
+                                                 std::uint64_t seed, const PathRequest& path) {
     std::optional<SamplingRequest> sampling = sampling_of("exact", within, seed);
-    if (sampling && frames > 1) {
+    if (sampling && path.group.views() > 1) {
+        throw InputError(kSeveralViews + "--within.");
+    }
+    if (sampling && path.frames > 1) {
         throw InputError("--frames asks for a camera path, which needs every tile, so it cannot be "
                          "combined with --within.");
     }
@@ -187,6 +194,9 @@ void put_views(const StudyViews& views, CompareRequest& request) {
     }
     check_scenes(views.scenes);
     check_positive("--width", views.width);
+    if (!views.crop.empty()) {
+        crop_of(views.crop);
+    }
     request.scenes = views.scenes;
     request.camera_file = views.camera_file;
     request.cameras = parse_cameras(views.cameras);
@@ -195,7 +205,15 @@ void put_views(const StudyViews& views, CompareRequest& request) {
     } else {
         request.sizes = parse_resolutions(views.resolutions);
     }
+    if (!views.crop.empty() && request.sizes.size() > 1) {
+        throw InputError("A crop (--crop, or 'crop' of a study) has pixels of images in one size, "
+                         "but several resolutions are asked for.");
+    }
+    request.crop = views.crop;
     request.path = views.path;
+    if (!views.path.group.cameras.empty()) { // they are one view of the study
+        request.cameras = {views.path.group.cameras.front()};
+    }
     request.analytic = views.analytic;
     request.array_only = views.array_only;
     request.reference = views.reference && !views.analytic;
@@ -213,6 +231,9 @@ bool is_analytic(const std::string& fidelity) {
 void check_estimates(const CompareRequest& request) {
     if (!request.analytic) {
         return;
+    }
+    if (request.path.group.views() > 1) {
+        throw InputError(kSeveralViews + "the fidelity analytic.");
     }
     const std::pair<bool, const char*> asked[] = {
         {request.path.frames > 1, "A camera path (--frames, or 'frames' of a study)"},
@@ -237,7 +258,10 @@ std::vector<std::vector<int>> cameras_by_scene(const CompareRequest& request) {
         std::vector<int> all(count);
         std::iota(all.begin(), all.end(), 0);
         cameras.push_back(request.cameras.value_or(all));
-        for (const int camera : cameras.back()) {
+        std::vector<int> asked = cameras.back();
+        asked.insert(asked.end(), request.path.group.cameras.begin(),
+                     request.path.group.cameras.end());
+        for (const int camera : asked) {
             if (camera >= count) {
                 throw InputError("Camera " + std::to_string(camera) + " does not exist: scene '" +
                                  scene + "' has " + std::to_string(count) +

@@ -27,10 +27,12 @@ struct ImageSize {
 struct CompareRequest {
     std::vector<NamedConfig> configs; ///< the others are compared with the first
     std::vector<std::string> scenes;
-    std::string camera_file;                 ///< empty: the scenes' own
-    std::vector<Camera> views;               ///< in place of the scenes' cameras; empty: none
+    std::string camera_file;   ///< empty: the scenes' own
+    std::vector<Camera> views; ///< in place of the scenes' cameras; empty: none
+    bool consecutive = false;  ///< designs that keep lists render the view before, too
     std::optional<std::vector<int>> cameras; ///< positions in each scene's list; empty: all
     std::vector<ImageSize> sizes{ImageSize{}};
+    std::string crop; ///< see crop_of(); empty: all of the images
     PathRequest path;
     bool analytic = false; ///< estimates in place of simulations
     bool array_only = false;
@@ -82,9 +84,9 @@ std::optional<std::vector<int>> parse_cameras(const std::string& text);
 std::vector<ImageSize> parse_resolutions(const std::string& text);
 
 /// What --within asks for in commands that run several designs. Throws InputError for a mistake,
-/// and if there is a camera path of several frames.
+/// and if there is a camera path of several frames or of several views.
 std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
-                                                 std::uint64_t seed, int frames);
+                                                 std::uint64_t seed, const PathRequest& path);
 
 /// Whether --fidelity asks for estimates of the analytic model; else for simulations of all tiles.
 /// Throws InputError for any other word.

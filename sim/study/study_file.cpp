@@ -70,6 +70,12 @@ std::int64_t taken_integer(const ConfigNode& tree, const char* name, std::int64_
     return otherwise;
 }
 
+double taken_real(const ConfigNode& tree, const char* name, double otherwise) {
+    const StudyKey& key = study_key(name);
+    take(tree, name, config_scalar::Real{key.low, key.high}, otherwise);
+    return otherwise;
+}
+
 /// Whether a choice between two words is the second.
 bool takes_second(const ConfigNode& tree, const char* name) {
     int choice = 0;
@@ -119,6 +125,32 @@ std::string beside(const fs::path& folder, const std::string& name) {
     return own ? name : (folder / name).lexically_normal().string();
 }
 
+/// Eyes, or positions of cameras that are the views of one frame.
+void read_group(const ConfigNode& tree, GroupRequest& group) {
+    const ConfigNode* const views = tree.find("views");
+    if (tree.find("cameras") != nullptr || tree.find("eyes") != nullptr) {
+        group.cameras.clear(); // those of the study, if this is its section 'quick'
+    }
+    if (tree.find("eyes") != nullptr) {
+        group.eyes_m = taken_real(tree, "eyes", 0);
+    }
+    if (views != nullptr) {
+        for (const char* other : {"cameras", "eyes", "path_step"}) {
+            if (tree.find(other) != nullptr) {
+                throw InputError(views->place + ": 'views' and " + quote(other) +
+                                 " exclude each other; give one.");
+            }
+        }
+        check_at(*views, [&] { group.cameras = group_cameras(joined_words(*views)); });
+        group.eyes_m.reset();
+    }
+    const ConfigNode* const units = tree.find("units_per_metre");
+    if (units != nullptr && !group.eyes_m) {
+        throw InputError(units->place + ": key 'units_per_metre' is for 'eyes', which is missing.");
+    }
+    group.units_per_metre = taken_real(tree, "units_per_metre", group.units_per_metre);
+}
+
 void read_views(const ConfigNode& tree, const fs::path& folder, StudyViews& study) {
     if (const ConfigNode* scenes = tree.find("scenes")) {
         for (const std::string& scene : words_of(*scenes)) {
@@ -129,6 +161,7 @@ void read_views(const ConfigNode& tree, const fs::path& folder, StudyViews& stud
         study.cameras = joined_words(*cameras);
         check_at(*cameras, [&] { parse_cameras(study.cameras); });
     }
+    read_group(tree, study.path.group);
     if (const ConfigNode* resolutions = tree.find("resolutions")) {
         study.resolutions = joined_words(*resolutions);
         check_at(*resolutions, [&] { parse_resolutions(study.resolutions); });
@@ -144,9 +177,12 @@ void read_views(const ConfigNode& tree, const fs::path& folder, StudyViews& stud
     if (tree.find("width") != nullptr) {
         study.width = static_cast<int>(taken_integer(tree, "width", 0));
     }
+    if (const ConfigNode* crop = tree.find("crop")) {
+        take(tree, "crop", config_scalar::Text{}, study.crop);
+        check_at(*crop, [&] { crop_of(study.crop); });
+    }
     study.path.frames = static_cast<int>(taken_integer(tree, "frames", study.path.frames));
-    const StudyKey& step = study_key("path_step");
-    take(tree, step.name, config_scalar::Real{step.low, step.high}, study.path.step_degrees);
+    study.path.step_degrees = taken_real(tree, "path_step", study.path.step_degrees);
     if (tree.find("fidelity") != nullptr) {
         study.analytic = takes_second(tree, "fidelity");
     }
@@ -177,6 +213,7 @@ bool read_quick(const ConfigNode& tree, const fs::path& folder, StudyViews& stud
     if (quick->find("resolutions") != nullptr || quick->find("width") != nullptr) {
         study.resolutions.clear();
         study.width.reset();
+        study.crop.clear(); // it is of images in the other size
     }
     read_views(*quick, folder, study);
     return true;

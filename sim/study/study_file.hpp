@@ -25,6 +25,7 @@ struct StudyViews {
     std::string camera_file;         ///< empty: the scenes' own
     std::string resolutions;         ///< names, separated by commas; empty: `width` decides
     std::optional<int> width;        ///< px; empty: the cameras' own
+    std::string crop;                ///< of images in that size, see crop_of(); empty: none
     PathRequest path;
     bool analytic = false; ///< estimates in place of simulations
     bool array_only = false;

@@ -87,6 +87,16 @@ std::vector<StudyKey> keys_of_views() {
             {"cameras", StudyKind::kWords, "positions in each scene's list from 0, or all", "0"})),
         in_quick(within(1, kMostImageSide,
                         {"width", StudyKind::kInteger, "px; by default the cameras' own size"})),
+        in_quick({"crop", StudyKind::kText, "part of the images, X,Y,WxH in pixels of that size"}),
+        in_quick(within(
+            0, kMostEyeDistance,
+            {"eyes", StudyKind::kReal, "distance of two eyes, m: each frame has two views"})),
+        within(kLeastUnitsPerMetre, kMostUnitsPerMetre,
+               {"units_per_metre", StudyKind::kReal, "scene units for a metre of eyes", "1"}),
+        in_quick(like("^[0-9]+(,[0-9]+)*$",
+                      {"views", StudyKind::kWords,
+                       "positions of cameras that are the views of one frame, in place of "
+                       "cameras"})),
         {"camera_file", StudyKind::kText, "a file of cameras in place of the scenes' own"},
         in_quick(
             within(1, kMostFramesOfStudy,

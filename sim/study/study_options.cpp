@@ -43,7 +43,9 @@ void add_study_view_options(CLI::App& command, ViewOptions& options) {
             ->type_name("NAMES");
     command.add_option("--width", options.width, "image width in pixels; the views are scaled")
         ->excludes(resolution);
+    add_crop_option(command, options.crop);
     add_path_options(command, options.path);
+    add_group_options(command, options.path.group);
     command.add_flag("--quick", options.quick,
                      "the few views that the section 'quick' of the study names");
     command.add_flag("--array-only", options.array_only,
@@ -65,7 +67,28 @@ void add_study_view_options(CLI::App& command, ViewOptions& options) {
     command.get_option("--path-step")->each([&options](const std::string&) {
         options.has_step = true;
     });
+    command.get_option("--units-per-metre")->each([&options](const std::string&) {
+        options.has_units = true;
+    });
 }
+
+namespace {
+
+void replace_group(const ViewOptions& options, GroupRequest& group) {
+    const GroupRequest& given = options.path.group;
+    if (!options.cameras.empty() || given.eyes_m) {
+        group.cameras.clear();
+    }
+    if (given.eyes_m) {
+        group.eyes_m = given.eyes_m;
+        group.units_per_metre = options.has_units ? given.units_per_metre : group.units_per_metre;
+    }
+    if (!given.cameras.empty()) {
+        group = given;
+    }
+}
+
+} // namespace
 
 void replace_views(const ViewOptions& options, StudyViews& views) {
     if (!options.scenes.empty()) {
@@ -80,7 +103,12 @@ void replace_views(const ViewOptions& options, StudyViews& views) {
     if (!options.resolutions.empty() || options.width) {
         views.resolutions = options.resolutions;
         views.width = options.width;
+        views.crop.clear(); // it is of images in the other size
     }
+    if (!options.crop.empty()) {
+        views.crop = options.crop;
+    }
+    replace_group(options, views.path.group);
     if (options.has_frames) {
         views.path.frames = options.path.frames;
     }
@@ -100,7 +128,7 @@ Study study_of(const StudyOptions& options) {
     }
     study.memory = options.memory;
     replace_views(options, study);
-    study.sampling = sampling_for_runs(options.within, options.seed, study.path.frames);
+    study.sampling = sampling_for_runs(options.within, options.seed, study.path);
     return study;
 }
 
@@ -124,7 +152,7 @@ std::vector<std::string> words_of(const StudyOptions& options) {
     for (const auto& [option, value] :
          {std::pair("--camera", options.cameras), std::pair("--camera-file", options.camera_file),
           std::pair("--memory", options.memory), std::pair("--resolution", options.resolutions),
-          std::pair("--fidelity", options.fidelity)}) {
+          std::pair("--fidelity", options.fidelity), std::pair("--crop", options.crop)}) {
         if (!value.empty()) {
             add(option, value);
         }
@@ -137,6 +165,16 @@ std::vector<std::string> words_of(const StudyOptions& options) {
     }
     if (options.has_step) {
         add("--path-step", config_words::number(options.path.step_degrees));
+    }
+    const GroupRequest& group = options.path.group;
+    if (group.eyes_m) {
+        add("--eyes", config_words::number(*group.eyes_m));
+    }
+    if (options.has_units) {
+        add("--units-per-metre", config_words::number(group.units_per_metre));
+    }
+    if (!group.cameras.empty()) {
+        add("--views", positions_words(group.cameras));
     }
     if (options.within) {
         add("--within", *options.within);

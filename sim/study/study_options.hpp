@@ -19,8 +19,9 @@ struct ViewOptions {
     std::vector<std::string> scenes;
     std::string cameras, camera_file, resolutions;
     std::optional<int> width;
+    std::string crop;
     PathRequest path;
-    bool has_frames = false, has_step = false;
+    bool has_frames = false, has_step = false, has_units = false;
     std::string fidelity; ///< empty: the study's own
     std::optional<std::string> within;
     std::uint64_t seed = 1;

@@ -201,9 +201,14 @@ ordered_json described(const StudyKey& key, const ordered_json& values) {
     return json;
 }
 
-/// Width and names of sizes exclude each other, in 'quick', too.
+/// Keys of which one takes the place of the other, in 'quick', too.
 void add_exclusion(ordered_json& section) {
-    section["not"] = {{"required", {"width", "resolutions"}}};
+    section["not"]["anyOf"] = ordered_json::array();
+    for (const auto& [one, other] :
+         {std::pair("width", "resolutions"), std::pair("views", "cameras"),
+          std::pair("views", "eyes"), std::pair("views", "path_step")}) {
+        section["not"]["anyOf"].push_back({{"required", {one, other}}});
+    }
 }
 
 ordered_json views_schema() {

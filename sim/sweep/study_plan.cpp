@@ -93,6 +93,12 @@ std::string run_options(const CompareRequest& request) {
         const double near = nearest_plane(request.configs);
         text += near == ProjectionOptions().near_plane ? "" : " about near " + decimal_text(near);
     }
+    const GroupRequest& group = request.path.group;
+    if (group.eyes_m) {
+        text += " eyes " + decimal_text(*group.eyes_m * group.units_per_metre);
+    }
+    text += group.cameras.empty() ? "" : " views " + positions_words(group.cameras);
+    text += request.crop.empty() ? "" : " crop " + request.crop;
     text += request.analytic ? " analytic" : "";
     text += request.array_only ? " array_only" : "";
     text += request.reference && !request.sampling ? " reference" : "";
@@ -179,6 +185,10 @@ StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variant
         }
         part.variants.push_back(plan.variants[variant]);
         part.request.configs.push_back(plan.request.configs[variant]);
+    }
+    if (change.divisor != 1 && !part.request.crop.empty()) {
+        throw InputError("A search begins with smaller images, of which 'crop' (--crop) is no "
+                         "part, so the study cannot have both.");
     }
     for (ImageSize& size : part.request.sizes) {
         if (change.divisor != 1 && !size.width && !size.height) {

@@ -293,9 +293,11 @@ SweepResults read_results(const StudyPlan& plan, const PointStore& store, Report
             if (found->path) {
                 found->path->report.clear();
             }
-            for (const std::string& sentence : found->frame.warnings) {
-                if (known.insert(sentence).second) {
-                    results.warnings.push_back(sentence);
+            for (const auto* list : {&found->frame.notes, &found->frame.warnings}) {
+                for (const std::string& sentence : *list) {
+                    if (known.insert(sentence).second) {
+                        results.warnings.push_back(sentence);
+                    }
                 }
             }
             results.points.push_back(p);

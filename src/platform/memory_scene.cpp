@@ -25,6 +25,19 @@ MemoryScene::View view_of(const Camera& camera) {
     return view;
 }
 
+/// A sentence for cameras whose lens distorts, which no register takes; empty if there is none.
+std::string lens_note(const std::vector<Camera>& cameras) {
+    std::size_t lenses = 0;
+    for (const Camera& camera : cameras) {
+        lenses += camera.lens.is_pinhole() ? 0 : 1;
+    }
+    return lenses == 0 ? ""
+                       : std::to_string(lenses) +
+                             " camera(s) of the scene have a lens with distortion, for which an "
+                             "accelerator on a platform has no registers; their views are "
+                             "pinholes.";
+}
+
 } // namespace
 
 MemoryScene load_memory_scene(const std::string& scene, const std::string& cameras_file) {
@@ -38,6 +51,9 @@ MemoryScene load_memory_scene(const std::string& scene, const std::string& camer
         made.views.push_back(view_of(camera));
     }
     made.notes = loaded.notes;
+    if (std::string note = lens_note(loaded.cameras); !note.empty()) {
+        made.notes.push_back(std::move(note));
+    }
     return made;
 }
 

@@ -70,6 +70,26 @@ TEST_P(LensesOfDesigns, HaveTheReferencesPixelsInEveryFidelity) {
     EXPECT_GT(passes.result().cycles, exact.result().cycles);
 }
 
+/// Fewer passes need so many more arithmetic units; with the default the linear ones are reused.
+TEST(BillsOfLenses, CostTheOperationsThatPassesLeave) {
+    for (const char* file : {"degs-64", "gscore-64", "gbu-64", "gcc-64", "orange-o1"}) {
+        SCOPED_TRACE(file);
+        const auto block = [&](const std::vector<std::string>& changes) {
+            return lens_design(file, changes).accelerator().bill().block("projection");
+        };
+        const cost::Block linear = block({"pipeline.rules.projection=linear"});
+        const cost::Block usual = block({});
+        EXPECT_EQ(usual.area_mm2, linear.area_mm2);
+        EXPECT_EQ(usual.energy_pj, linear.energy_pj);
+        const cost::Block one = block({"projection.unscented_passes=1"});
+        EXPECT_NEAR(one.area_mm2, 3.99 * linear.area_mm2, 1e-9);   // ORANGE's is 0
+        EXPECT_NEAR(one.energy_pj / linear.energy_pj, 3.99, 1e-9); // of a cycle
+        EXPECT_NEAR(block({"projection.unscented_passes=3"}).area_mm2, 1.33 * linear.area_mm2,
+                    1e-9);
+        EXPECT_EQ(block({"projection.unscented_passes=9"}).area_mm2, linear.area_mm2);
+    }
+}
+
 std::string lens_row_name(const ::testing::TestParamInfo<LensRow>& row) {
     std::string name = std::string(std::get<0>(row.param)) + "_" +
                        test::published_lenses().at(std::get<1>(row.param)).name;

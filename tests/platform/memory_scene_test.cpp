@@ -7,6 +7,7 @@
 #include "degs/error.hpp"
 #include "degs/scene.hpp"
 #include "scene/scene.hpp"
+#include "tests/scene/scene_fixture.hpp"
 
 namespace degs::test {
 namespace {
@@ -46,6 +47,17 @@ TEST(MemoryScene, HasTheGaussiansAndViewsOfTheFile) {
         EXPECT_GT(opacity, 0) << i;
         EXPECT_LE(opacity, 1) << i;
     }
+}
+
+TEST(MemoryScene, SaysThatRegistersHaveNoLens) {
+    const Folder folder;
+    const std::string file = folder.write(
+        "cameras.json", R"([{"width":64,"height":48,"position":[0,0,-6],"fx":50,"fy":50,)"
+                        R"("rotation":[[1,0,0],[0,1,0],[0,0,1]],"camera_model":"OPENCV",)"
+                        R"("distortion":[0.1,0,0,0]}])");
+    const MemoryScene memory = load_memory_scene("synthetic:object,gaussians=50", file);
+    ASSERT_EQ(memory.notes.size(), 1U);
+    EXPECT_THAT(memory.notes[0], IsSentenceWith("1 camera(s) of the scene have a lens"));
 }
 
 TEST(HostileMemoryScene, AMistakeIsOneSentence) {

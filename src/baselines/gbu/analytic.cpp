@@ -35,7 +35,7 @@ public:
     std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
                                          const TileCycles& tiles) const override {
         Work work;
-        work.splats_generated = tiles.walked;
+        work.generating = tiles.busy[kGeneration] * config_.engines.count;
         work.slots = tiles.slots;
         work.keys_moved = tiles.keys;
         work.splats_fetched = tiles.fetched;

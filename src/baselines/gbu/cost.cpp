@@ -28,8 +28,9 @@ cost::BillOfMaterials Config::bill() const {
     constexpr int kReadAndWritten = 2;
     constexpr int kSortingSteps = 2;
     cost::BillOfMaterials bill(cost, clock_ghz);
+    const double arithmetic = projection.arithmetic(pipeline.rules.projection);
     bill.add_units({"projection", "Culling and conversion units.", true}, rows.preprocessing,
-                   projection.count, 1 - rows.sorting_share);
+                   projection.count, 1 - rows.sorting_share, {arithmetic, arithmetic});
     bill.add_units({"sorting", "Hierarchical sorting units.", true}, rows.preprocessing,
                    sorting.count, rows.sorting_share);
     bill.add_units({"row_generation", "Row Generation and dispatch of all engines."},
@@ -51,7 +52,8 @@ cost::BillOfMaterials Config::bill() const {
 }
 
 std::vector<cost::Activity> Config::activity(const Work& work) const {
-    return {{"row_generation", work.splats_generated / engines.count * cost_rows.scheduler.units},
+    // While one engine generates, its share of the units works.
+    return {{"row_generation", work.generating / engines.count * rows_per_cycle()},
             {"row_pes", work.slots},
             {"list_buffer", work.keys_moved * traffic.list_entry_bytes},
             {"splat_buffer", 2 * work.splats_fetched * traffic.splat_bytes},
@@ -64,7 +66,7 @@ void Engine::collect_activity(AcceleratorResult& result) const {
     using R = ReuseCache::Stats;
     const auto real = [](std::uint64_t count) { return rate_of(count, 1); };
     Work work;
-    work.splats_generated = real(sum_of(engines_, &E::splats));
+    work.generating = real(sum_of(engines_, &E::generating));
     work.slots = real(result.slots.executed());
     work.keys_moved = real(front_end().keys_moved());
     work.splats_fetched = real(records_fetched());

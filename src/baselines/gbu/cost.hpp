@@ -15,12 +15,12 @@ struct CostRows {
 
 /// What the engines have done, counted by a simulation or expected by an estimate.
 struct Work {
-    double splats_generated = 0; ///< taken by Row Generation
-    double slots = 0;            ///< of Row PEs
-    double keys_moved = 0;       ///< by the sorters
-    double splats_fetched = 0;   ///< records that reach the engines
-    double entries_moved = 0;    ///< into the row queues and out of them
-    double lookups = 0;          ///< in the reuse caches
+    double generating = 0;     ///< cycles in which Row Generation solves rows, of all engines
+    double slots = 0;          ///< of Row PEs
+    double keys_moved = 0;     ///< by the sorters
+    double splats_fetched = 0; ///< records that reach the engines
+    double entries_moved = 0;  ///< into the row queues and out of them
+    double lookups = 0;        ///< in the reuse caches
 };
 
 } // namespace degs::gbu

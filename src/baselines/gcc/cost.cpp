@@ -31,8 +31,9 @@ cost::BillOfMaterials Config::bill() const {
     cost::BillOfMaterials bill(cost, clock_ghz);
     bill.add_units({"grouping", "Lanes of Stage I, a mean per cycle each.", true},
                    rows.preprocessing, grouping.means_per_cycle);
+    const double arithmetic = projection.arithmetic(pipeline.rules.projection);
     bill.add_units({"projection", "Projection units of Stage II.", true}, rows.preprocessing,
-                   clusters * projection.units);
+                   clusters * projection.units, 1, {arithmetic, arithmetic});
     bill.add_units({"colour", "SH units of Stage III, with its sorter.", true}, rows.preprocessing,
                    clusters * colour.units);
     bill.add_units({"blending", "PEs of the window."}, rows.blending, pes(), 1,

@@ -26,8 +26,9 @@ cost::BillOfMaterials Config::bill() const {
     constexpr int kReadAndWritten = 2;
     constexpr int kSortingSteps = 2;
     cost::BillOfMaterials bill(cost, clock_ghz);
+    const double arithmetic = projection.arithmetic(pipeline.rules.projection);
     bill.add_units({"projection", "Culling and conversion units.", true}, rows.preprocessing,
-                   projection.count, 1 - rows.sorting_share);
+                   projection.count, 1 - rows.sorting_share, {arithmetic, arithmetic});
     bill.add_units({"sorting", "Hierarchical sorting units.", true}, rows.preprocessing,
                    sorting.count, rows.sorting_share);
     bill.add_units({"blending", "Lanes of the volume rendering cores."}, rows.blending, pes(), 1,

@@ -36,8 +36,9 @@ cost::BillOfMaterials Config::bill() const {
     constexpr int kReadAndWritten = 2;
     const SystolicArray::Config& array = cores.array;
     cost::BillOfMaterials bill(cost, clock_ghz);
+    const double arithmetic = projection.arithmetic(pipeline.rules.projection);
     bill.add_units({"projection", "Projection, on the vector units.", true}, rows.preprocessing,
-                   projection.count, 1 - rows.sorting_share);
+                   projection.count, 1 - rows.sorting_share, {arithmetic, arithmetic});
     bill.add_units({"sorting", "Sorting, on the vector units.", true}, rows.preprocessing,
                    sorting.count, rows.sorting_share);
     bill.add_units({"systolic_arrays", "Multipliers of the systolic arrays."}, rows.array, pes(), 1,

@@ -38,7 +38,9 @@ cost::BillOfMaterials DegsConfig::bill() const {
     const std::int64_t many = clusters;
 
     cost::BillOfMaterials bill(cost, clock_ghz);
-    bill.add_units({"projection", "Projection Units.", true}, rows.projection, projection.count);
+    const double arithmetic = projection.arithmetic(pipeline.rules.projection);
+    bill.add_units({"projection", "Projection Units.", true}, rows.projection, projection.count, 1,
+                   {arithmetic, arithmetic});
     bill.add_units({"sorting", "Sorting Units.", true}, rows.sorting, sorting.count);
     bill.add_units({"slicing", "Gaussian Slicing Units."}, rows.span_engine,
                    clusters * slicing.count);

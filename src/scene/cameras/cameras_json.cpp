@@ -31,18 +31,15 @@ Lens lens_of_json(const CameraPlace& place, const JsonEntry& entry) {
     if (model == "PINHOLE") {
         return {};
     }
-    const std::vector<double> terms = entry.numbers("distortion");
-    const std::size_t count = terms.size();
-    const bool fisheye = model == "OPENCV_FISHEYE";
-    if (!(fisheye || model == "OPENCV" ? count == 4
-          : model == "FULL_OPENCV"     ? count == 8 || count == 9
-                                       : false)) {
+    const LensTerms terms{model, entry.numbers("distortion")};
+    const std::optional<Lens> lens = lens_of(terms);
+    if (!lens) {
         place.fail("has a camera_model " + in_quotes(model) + " with a distortion of " +
-                   std::to_string(count) +
+                   std::to_string(terms.terms.size()) +
                    " numbers; allowed are PINHOLE, OPENCV (k1 k2 p1 p2), FULL_OPENCV (and k3 k4 k5 "
                    "k6, and a ninth for r^8) and OPENCV_FISHEYE (k1 k2 k3 k4).");
     }
-    return fisheye ? fisheye_lens(terms) : open_cv_lens(terms);
+    return *lens;
 }
 
 Camera camera_of_json(const CameraPlace& place, std::size_t index, const nlohmann::json& json) {

@@ -10,8 +10,6 @@
 namespace degs {
 namespace {
 
-constexpr double kWorthANote = 0.01; // px
-
 std::string three_digits(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", value);
@@ -56,32 +54,52 @@ Lens fisheye_lens(const std::vector<double>& terms) {
     return Lens(c);
 }
 
-void LensNote::add(const Camera& camera) {
-    if (camera.lens.is_pinhole()) {
-        return;
+std::optional<Lens> lens_of(const LensTerms& lens) {
+    const std::size_t count = lens.terms.size();
+    if (lens.model == "OPENCV_FISHEYE" && count == 4) {
+        return fisheye_lens(lens.terms);
     }
-    const glm::dvec2 focal(camera.fx, camera.fy);
+    const bool full = lens.model == "FULL_OPENCV" && (count == 8 || count == 9);
+    if (full || (lens.model == "OPENCV" && count == 4)) {
+        return open_cv_lens(lens.terms);
+    }
+    return {};
+}
+
+namespace {
+
+glm::dvec2 focal_of(const Camera& camera) {
+    return {camera.fx, camera.fy};
+}
+
+/// Slopes of the corner that is farthest from the principal point.
+glm::dvec2 farthest_corner(const Camera& camera) {
     const glm::dvec2 point = camera.principal_point();
-    const glm::dvec2 corner =
-        glm::max(glm::abs(point), glm::abs(glm::dvec2(camera.width, camera.height) - point)) /
-        focal;
-    const double moved = glm::length(focal * (camera.lens.bent(corner) - corner));
-    distortion_ = std::isnan(moved) ? moved : std::max(distortion_, moved);
+    return glm::max(glm::abs(point), glm::abs(glm::dvec2(camera.width, camera.height) - point)) /
+           focal_of(camera);
+}
+
+} // namespace
+
+double corner_shift(const Camera& camera) {
+    if (camera.lens.is_pinhole()) {
+        return 0;
+    }
+    const glm::dvec2 corner = farthest_corner(camera);
+    return glm::length(focal_of(camera) * (camera.lens.bent(corner) - corner));
+}
+
+void LensNote::add(const Camera& camera) {
     const double fold = camera.lens.fold_slope();
-    if (fold < Lens::kMostSlope && camera.lens.radius_at(fold) < glm::length(corner)) {
+    if (!camera.lens.is_pinhole() && fold < Lens::kMostSlope &&
+        camera.lens.radius_at(fold) < glm::length(farthest_corner(camera))) {
         fold_ = std::min(fold_, std::atan(fold) / kDegree);
     }
 }
 
 std::string LensNote::text(const std::string& path) const {
-    // Phrased so that a distortion that is not a number is mentioned, too.
-    const std::string bends = distortion_ < kWorthANote
-                                  ? ""
-                                  : "The cameras of " + path + " have lens distortion of up to " +
-                                        three_digits(distortion_) + " px in the corners.";
-    return fold_ == 90 ? bends
-                       : bends + (bends.empty() ? "" : " ") + "A lens of " + path + " folds back " +
-                             three_digits(fold_) +
+    return fold_ == 90 ? ""
+                       : "A lens of " + path + " folds back " + three_digits(fold_) +
                              " degrees from the view axis, before a corner of its image; nothing "
                              "is drawn beyond.";
 }

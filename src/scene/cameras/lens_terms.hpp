@@ -2,6 +2,7 @@
 // Lenses as camera files spell them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,18 +26,23 @@ Lens open_cv_lens(const std::vector<double>& terms);
 /// k1 k2 k3 k4, or as many of the first as there are.
 Lens fisheye_lens(const std::vector<double>& terms);
 
+/// The lens that terms_of() describes; none for a kind or a number of terms that it never says.
+std::optional<Lens> lens_of(const LensTerms& terms);
+
+/// How far the lens moves the corner of its image that is farthest from the principal point, px; 0
+/// without distortion. Not a number where the lens has no value there.
+double corner_shift(const Camera& camera);
+
 /// What a file of cameras has of lenses, for its note.
 class LensNote {
 public:
     /// Counts the lens of a camera whose size and principal point are set.
     void add(const Camera& camera);
-    /// A full sentence for lenses that move a corner of their image by a hundredth of a pixel or
-    /// more, or that fold before it; empty if there is none.
+    /// A full sentence for lenses that fold before a corner of their image; empty if none does.
     std::string text(const std::string& path) const;
 
 private:
-    double distortion_ = 0; ///< px in a corner, the largest
-    double fold_ = 90;      ///< degrees from the view axis, the least that lies before a corner
+    double fold_ = 90; ///< degrees from the view axis, the least that lies before a corner
 };
 
 } // namespace degs

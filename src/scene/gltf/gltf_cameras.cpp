@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/cameras/lens_terms.hpp"
 #include "splat/model/angles.hpp"
 
 namespace degs {
@@ -25,7 +26,25 @@ double coordinate_of(const tinygltf::Camera& camera, const char* key, int side) 
     return value != nullptr && value->IsNumber() ? value->GetNumberAsDouble() : side / 2.0;
 }
 
-/// Size, focal lengths and principal point.
+/// The lens in the extras, in the words of cameras.json; a pinhole if they say nothing of the kind.
+Lens lens_in(const tinygltf::Camera& camera) {
+    const tinygltf::Value* const model = member_of(camera.extras, "camera_model");
+    const tinygltf::Value* const terms = member_of(camera.extras, "distortion");
+    if (model == nullptr || !model->IsString() || terms == nullptr || !terms->IsArray()) {
+        return {};
+    }
+    LensTerms lens{model->Get<std::string>(), {}};
+    for (std::size_t i = 0; i < terms->ArrayLen(); ++i) {
+        const tinygltf::Value& term = terms->Get(static_cast<int>(i));
+        if (!term.IsNumber()) {
+            return {};
+        }
+        lens.terms.push_back(term.GetNumberAsDouble());
+    }
+    return lens_of(lens).value_or(Lens());
+}
+
+/// Size, focal lengths, principal point and lens.
 void set_lens(const GltfFile& file, const tinygltf::Camera& from, const std::string& who,
               Camera& to) {
     const double yfov = from.perspective.yfov;
@@ -58,6 +77,7 @@ void set_lens(const GltfFile& file, const tinygltf::Camera& from, const std::str
         file.fail(who + " has a principal point (cx, cy) in its extras that is too far from the "
                         "middle of the image.");
     }
+    to.lens = lens_in(from);
 }
 
 /// glTF cameras look along -z with +y up; a scale of the node does not matter.

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/cameras/lens_terms.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/files/output_file.hpp"
 #include "scene/gltf/gltf.hpp"
@@ -100,14 +101,19 @@ void add_instances(const std::vector<GlbInstance>& instances, GlbJson& nodes) {
     }
 }
 
-/// What glTF does not know of a camera: the size of the image, and a principal point off its
-/// middle.
+/// What glTF does not know of a camera: the size of the image, a principal point off its middle,
+/// and a lens that distorts.
 GlbJson extras_of(const Camera& camera) {
     GlbJson extras = {{"width", camera.width}, {"height", camera.height}};
     if (camera.shift != glm::dvec2(0.0)) {
         const glm::dvec2 point = camera.principal_point();
         extras["cx"] = point.x;
         extras["cy"] = point.y;
+    }
+    if (!camera.lens.is_pinhole()) {
+        const LensTerms lens = terms_of(camera.lens);
+        extras["camera_model"] = lens.model;
+        extras["distortion"] = lens.terms;
     }
     return extras;
 }

@@ -218,5 +218,33 @@ TEST(HostileGbuConfig, ProblemsAreOneSentenceThatNamesTheKeys) {
     EXPECT_EQ(problem([](gbu::Config& c) { c.reuse_cache.bytes = 0; }), "");
 }
 
+class RowGenerationCost : public ::testing::TestWithParam<std::pair<int, int>> {};
+
+/// All rows that the engines can solve in the cycles in which they do.
+TEST_P(RowGenerationCost, IsThatOfItsBusyCycles) {
+    const auto& [engines, rows_per_cycle] = GetParam();
+    gbu::Config config = gbu_of(32, engines, 8);
+    config.engines.rows_per_cycle = rows_per_cycle;
+    const FrameWorkload frame = random_frame(7, 150, 101, 32, 500);
+    const GbuRun run("gbu", config, {&frame});
+    sc_core::sc_start();
+    const AcceleratorResult& result = run.result();
+    const double rows = config.bill().block("row_generation").full_rate; // per cycle
+    double busy = 0, done = 0;
+    for (const StageUse& stage : result.stages) {
+        busy += stage.name == "row_generation" ? stage.busy_cycles / stage.units : 0;
+    }
+    for (const cost::Activity& activity : result.activity) {
+        done += activity.block == "row_generation" ? activity.operations : 0;
+    }
+    EXPECT_GT(busy, 0.01 * static_cast<double>(result.cycles));
+    EXPECT_LE(busy, static_cast<double>(result.cycles));
+    EXPECT_NEAR(done, busy * rows, 1e-9 * done);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, RowGenerationCost,
+                         ::testing::Values(std::pair(1, 8), std::pair(8, 1), std::pair(2, 0),
+                                           std::pair(2, 4)));
+
 } // namespace
 } // namespace degs

@@ -20,7 +20,8 @@ public:
                 ends_[{event["tile"], event["splat"], event["row"], event["column"]}] |=
                     static_cast<std::uint32_t>(event["mask"]);
             } else if (event.kind() == "tile") {
-                sizes_[event["tile"]] = {event["width"], event["height"]};
+                parts_[event["tile"]] = {event["first_row"], event["last_row"],
+                                         event["first_column"], event["last_column"]};
             }
         }
     }
@@ -48,6 +49,9 @@ private:
         }
     }
 
+    struct Part { // inside the image
+        Number first_row = 0, last_row = 0, first_column = 0, last_column = 0;
+    };
     struct Tile {
         Number live = 0; // pixels
         bool reported = false;
@@ -60,9 +64,9 @@ private:
     Tile& tile(Number number) {
         const bool starts = tiles_.count(number) == 0;
         Tile& tile = tiles_[number];
-        for (Number row = fact("slice"); starts && row < sizes_.at(number).second;
-             row += fact("slices")) {
-            tile.live += sizes_.at(number).first;
+        const Part& part = parts_.at(number);
+        for (Number row = fact("slice"); starts && row <= part.last_row; row += fact("slices")) {
+            tile.live += row < part.first_row ? 0 : part.last_column - part.first_column + 1;
         }
         return tile;
     }
@@ -87,7 +91,9 @@ private:
         std::uint32_t& ended = tile.ended[{row, column}];
         ended |= mask;
         tile.live -= __builtin_popcount(mask);
-        const Number inside = std::min(fact("segment_length"), sizes_.at(number).first - column);
+        const Part& part = parts_.at(number);
+        const Number last = std::min(column + fact("segment_length") - 1, part.last_column);
+        const Number inside = last - std::max(column, part.first_column) + 1;
         const bool all = __builtin_popcount(ended) == inside;
         if (all && fact("region_listeners") != 0) {
             report_region(number, stream_of(context), row, column / fact("segment_length"));
@@ -116,7 +122,7 @@ private:
     }
 
     std::map<std::tuple<Number, Number, Number, Number>, std::uint32_t> ends_;
-    std::map<Number, std::pair<Number, Number>> sizes_; // width and height of tiles
+    std::map<Number, Part> parts_; // of tiles
     std::map<Number, Tile> tiles_;
 };
 

@@ -76,9 +76,9 @@ TEST(CameraFiles, NotesReachTheScene) {
     const test::Folder folder;
     const std::string scene = put_scene(folder, "scene.ply");
     std::string text = kTransformsOfOne;
-    folder.write("transforms.json", text.insert(1, R"("k1":0.5,)"));
+    folder.write("transforms.json", text.insert(1, R"("k1":-5,)"));
     ASSERT_EQ(load_scene(scene).notes.size(), 1U);
-    EXPECT_THAT(load_scene(scene).notes[0], test::IsSentenceWith("lens distortion of up to"));
+    EXPECT_THAT(load_scene(scene).notes[0], test::IsSentenceWith("folds back"));
 }
 
 TEST(CameraFiles, AllThatTheyAreMadeOfIsListed) {

@@ -151,8 +151,7 @@ TEST(LensFiles, FoldsBeforeACornerAreMentioned) {
     const CameraFile folds = nerfstudio_file(R"("k1":-0.6,)");
     ASSERT_EQ(folds.notes.size(), 1U);
     EXPECT_THAT(folds.notes[0], ::testing::HasSubstr("folds back 36.7 degrees"));
-    EXPECT_THAT(nerfstudio_file(R"("k1":-0.1,)").notes.at(0),
-                ::testing::Not(::testing::HasSubstr("folds")));
+    EXPECT_TRUE(nerfstudio_file(R"("k1":-0.1,)").notes.empty());
 }
 
 } // namespace

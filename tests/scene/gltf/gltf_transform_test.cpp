@@ -182,6 +182,13 @@ TEST(GltfCameras, TakeTheirSizeFromTheAspectRatio) {
     EXPECT_EQ(camera.height, 200);
     EXPECT_NEAR(camera.fx, 200, 1e-9);
     EXPECT_NEAR(camera.fy, 200, 1e-9);
+    EXPECT_TRUE(camera.lens.is_pinhole());
+    // Extras of other programs are theirs.
+    for (const char* terms : {"[1, 2]", "[1, 2, 3, \"4\"]", "7", "null"}) {
+        glb.json["cameras"][0]["extras"]["camera_model"] = "OPENCV";
+        glb.json["cameras"][0]["extras"]["distortion"] = nlohmann::json::parse(terms);
+        EXPECT_TRUE(test::read(glb).cameras[0].lens.is_pinhole());
+    }
 }
 
 TEST(HostileGltfCameras, AreRefusedInOneSentence) {

@@ -2,9 +2,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "scene/cameras/lens_terms.hpp"
 #include "scene/ply/ply.hpp"
 #include "scene/scene.hpp"
 #include "tests/scene/gltf/glb_builder.hpp"
+#include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {
 namespace {
@@ -57,6 +59,24 @@ INSTANTIATE_TEST_SUITE_P(Shared, WrittenGlb,
                              name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
                              return name;
                          });
+
+TEST(WrittenGlb, KeepsLenses) {
+    GaussianCloud cloud = test::random_cloud(3, 1);
+    const test::Folder folder;
+    const std::string path = folder.path("scene.glb");
+    std::vector<Camera> cameras(4, test::make_camera(64, 48, 50));
+    cameras[1].lens = open_cv_lens({0.1, -0.02, 1e-3, 2e-3});
+    cameras[2].lens = open_cv_lens({0.1, -0.02, 1e-3, 2e-3, 1e-4, 0.3, 0.2, 0.1});
+    cameras[3].lens = fisheye_lens({0.01, 0.02, 0.03, 0.04});
+    write_glb(cloud, cameras, {}, path);
+    const Scene back = load_scene(path);
+    ASSERT_EQ(back.cameras.size(), cameras.size());
+    EXPECT_TRUE(back.cameras[0].lens.is_pinhole());
+    for (std::size_t i = 1; i < cameras.size(); ++i) {
+        EXPECT_EQ(terms_of(back.cameras[i].lens).model, terms_of(cameras[i].lens).model);
+        EXPECT_EQ(terms_of(back.cameras[i].lens).terms, terms_of(cameras[i].lens).terms);
+    }
+}
 
 /// PLY -> GLB -> PLY against PLY -> PLY: the same file, byte for byte. Against the values of the
 /// original file, means and SH keep their bits; rotations do if they had length 1; logarithms and

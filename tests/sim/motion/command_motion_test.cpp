@@ -53,6 +53,51 @@ TEST(MotionRuns, GoesThroughTheCameras) {
     EXPECT_DOUBLE_EQ(written["designs"][0]["latency_ms"]["worst"].get<double>(), worst);
 }
 
+/// A frame of two eyes is what degs run says of them.
+TEST(MotionRuns, HasTwoEyes) {
+    const Folder folder;
+    const std::vector<std::string> eyes{"--eyes", "0.3", "--units-per-metre", "2"};
+    std::vector<std::string> more{"--camera", "2", "--crop", "8,4,40x30"};
+    more.insert(more.end(), eyes.begin(), eyes.end());
+    expect_success(motion(folder / "m", more));
+    const nlohmann::json written = document_in(folder / "m");
+    EXPECT_EQ(written["eyes_m"], 0.3);
+    std::vector<std::string> run{"run", config("degs-16"), "--scene",   kMotionScene, "--width",
+                                 "64",  "--out",           folder / "r"};
+    run.insert(run.end(), more.begin(), more.end());
+    expect_success(degs(run));
+    EXPECT_EQ(written["designs"][0]["latency_ms"]["worst"],
+              report_in(folder / "r")["timing"]["latency_ms"]);
+}
+
+/// A frame is what degs run says of it behind the frame before, in latency and in bytes; the first
+/// keeps nothing.
+TEST(MotionRuns, KeepListsOfTheFrameBefore) {
+    const Folder folder;
+    const std::vector<std::string> keep{"--set", "binning.keep_lists=true", "--set",
+                                        "frames_in_flight=1"};
+    const auto report_of = [&](const char* frames) {
+        std::vector<std::string> run{"run", config("degs-16"), "--scene", kMotionScene, "--width",
+                                     "64",  "--no-reference",  "--out",   folder / "r"};
+        run.insert(run.end(), keep.begin(), keep.end());
+        run.insert(run.end(), {"--frames", frames, "--path-step", "0"});
+        expect_success(degs(run));
+        return report_in(folder / "r");
+    };
+    const std::string head = poses_file(folder, "0,0,0,0,1,0,0,0\n0.1,0,0,0,1,0,0,0\n");
+    expect_success(motion(folder / "m", {"--poses", head, "--rates", "10", "--set",
+                                         "binning.keep_lists=true", "--jobs", "2"}));
+    const nlohmann::json kept = document_in(folder / "m")["designs"][0];
+    const nlohmann::json one = report_of("1"), both = report_of("2");
+    const double first = one["timing"]["cycles"], second = both["timing"]["cycles"];
+    EXPECT_NEAR(kept["latency_ms"]["worst"].get<double>(), first * 1e-6, 1e-12); // at 1 GHz
+    EXPECT_NEAR(kept["latency_ms"]["p50"].get<double>(), (second - first) * 1e-6, 1e-12);
+    EXPECT_LT(second - first, first);
+    const double bytes =
+        both["dram"]["bytes_read"].get<double>() + both["dram"]["bytes_written"].get<double>();
+    EXPECT_DOUBLE_EQ(kept["bytes_per_frame"].get<double>(), bytes / 2);
+}
+
 /// The first frame is the camera's own; a head that stands still sees the same frame again.
 TEST(MotionRuns, FollowsRecordedPoses) {
     const Folder folder;
@@ -82,6 +127,8 @@ TEST(MotionRuns, RefusesInOneSentence) {
              {{"--poses", head}, "--frames takes the first ones"},
              {{"--poses", head, "--between", "3"}, "--between is for a path through cameras"},
              {{"--in-scene"}, "--poses is missing"},
+             {{"--units-per-metre", "2"}, "--poses or --eyes is missing"},
+             {{"--eyes", "0.1", "--fidelity", "analytic"}, "frames with one view"},
              {{"--rates", "90,90"}, "--rates has 90 Hz twice"},
              {{"--rates", "0"}, "--rates"},
              {{"--rates", "fast"}, "--rates"},

@@ -188,6 +188,17 @@ const Other kOthers[] = {
 
 INSTANTIATE_TEST_SUITE_P(Designs, SmallRunNaiveBlock, testing::ValuesIn(kOthers));
 
+/// A window that cuts tiles on every side.
+class CroppedNaiveBlock : public testing::TestWithParam<Other> {};
+
+TEST_P(CroppedNaiveBlock, TakesAndSendsTheSame) {
+    std::vector<std::string> view = kSmall;
+    view.insert(view.end(), {"--crop", "19,13,107x83"});
+    expect_naive_block(GetParam(), view, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Designs, CroppedNaiveBlock, testing::ValuesIn(kOthers));
+
 class TrainedNaiveBlock : public testing::TestWithParam<Other> {};
 
 TEST_P(TrainedNaiveBlock, TakesAndSendsTheSame) {

@@ -23,6 +23,22 @@ void log_ended(EventLog& log, Cycle now, const TaskRun& run, std::uint32_t ended
     }
 }
 
+// The rows and columns of a tile that lie inside the image: a window may cut it on every side.
+void log_tile(EventLog& log, Cycle now, TileNumber number, const JobTile& tile) {
+    const PixelRange rows = tile.drawn_rows(), columns = tile.drawn_columns();
+    log.begin(log.kind("tile", {{"tile", {}},
+                                {"first_row", {}},
+                                {"last_row", {}},
+                                {"first_column", {}},
+                                {"last_column", {}}}),
+              now);
+    for (const std::int64_t value :
+         {std::int64_t{number}, std::int64_t{rows.first}, std::int64_t{rows.last},
+          std::int64_t{columns.first}, std::int64_t{columns.last}}) {
+        log.put(value);
+    }
+}
+
 } // namespace
 
 void ArraySlice::Config::describe(ConfigVisitor& visitor) {
@@ -255,12 +271,7 @@ void ArraySlice::RecordedPump::pump() {
 void ArraySlice::start_tile(Context& context, TileNumber number) {
     const JobTile& tile = job_.tiles[number];
     if (log_ != nullptr) {
-        log_->begin(log_->kind("tile", {{"tile", {}}, {"width", {}}, {"height", {}}}),
-                    self_.local());
-        for (const std::int64_t value :
-             {std::int64_t{number}, std::int64_t{tile.width}, std::int64_t{tile.height}}) {
-            log_->put(value);
-        }
+        log_tile(*log_, self_.local(), number, tile);
     }
     context.tile = number;
     context.live_pixels = 0;

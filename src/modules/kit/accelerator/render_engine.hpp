@@ -151,6 +151,8 @@ struct AcceleratorConfig {
     /// How much the views of a frame share. With Nothing they are frames of their own; else their
     /// Gaussians are read together.
     virtual ViewSharing view_sharing() const { return ViewSharing::Nothing; }
+    /// Sorted lists stay for the next frame, so that a frame costs less behind another one.
+    virtual bool keeps_lists() const { return false; }
     /// How splat records lie in memory.
     virtual RecordOrder record_order() const { return RecordOrder::Index; }
     /// Switches to the scene as a platform's memory holds it: values of 4 B, see

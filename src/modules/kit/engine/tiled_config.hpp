@@ -37,6 +37,7 @@ struct TiledConfig : AcceleratorConfig {
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     TrafficConfig records() const override { return traffic; }
     ViewSharing view_sharing() const override { return projection.shared_by_views; }
+    bool keeps_lists() const override { return binning.keep_lists; }
     RecordOrder record_order() const override { return memory.layout; }
     void read_floats() override {
         traffic.geometry_bytes = kFloatGeometryBytes;

@@ -9,6 +9,9 @@ void ProjectionRate::describe(ConfigVisitor& visitor) {
     visitor.integer("unscented_passes", unscented_passes, 1, 1024,
                     "of a Gaussian through a unit with pipeline.rules.projection: unscented, as "
                     "its 666 operations to the 167 of linear [assumed]");
+    visitor.real("unscented_operations", unscented_operations, 1, 1024,
+                 "of a Gaussian, relative to linear: 666 / 167; area and power of a unit are those "
+                 "of this / unscented_passes linear ones, 1 at least [assumed]");
 }
 
 } // namespace degs
