@@ -165,10 +165,20 @@ void add_group_options(CLI::App& command, GroupRequest& request) {
                 "what projection.shared_by_views says")
             ->type_name("POSITIONS")
             ->excludes(eyes);
-    for (const char* option : {"--camera", "--path-step", "--workload"}) {
+    CLI::Option* const foveation =
+        command
+            .add_option_function<std::string>(
+                "--foveation",
+                [&request](const std::string& text) { request.foveation = foveation_of(text); },
+                "point looked at, in shares of width and height, and degrees from there: full "
+                "resolution up to FOVEA, half up to PERIPHERY, a quarter beyond")
+            ->type_name("X,Y:FOVEA:PERIPHERY");
+    for (const char* option : {"--camera", "--path-step"}) {
         views->excludes(command.get_option(option));
     }
-    eyes->excludes(command.get_option("--workload"));
+    for (CLI::Option* const option : {eyes, views, foveation}) {
+        option->excludes(command.get_option("--workload"));
+    }
 }
 
 void add_sampling_options(CLI::App& command, std::optional<std::string>& within,
