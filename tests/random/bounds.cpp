@@ -140,7 +140,7 @@ void check_energy(const Finished& run, Complaints& complaints) {
 void check_tiles(const Finished& run, Complaints& complaints) {
     std::uint64_t tiles = 0;
     for (const FrameWorkload* frame : run.frames) {
-        tiles += static_cast<std::uint64_t>(frame->tiles());
+        tiles += frame->grid().shown_tiles();
     }
     complaints.equal("tiles rendered and background",
                      run.result.tiles + run.result.background_tiles, tiles);
