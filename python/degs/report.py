@@ -143,26 +143,28 @@ def run(design: Union[Design, PathLike], scene: Optional[PathLike] = None, *, ca
         camera_file: Optional[PathLike] = None, width: Optional[int] = None, height: Optional[int] = None,
         resolution: Optional[str] = None, crop: Optional[str] = None, frames: Optional[int] = None,
         path_step: Optional[float] = None, eyes: Optional[float] = None, units_per_metre: Optional[float] = None,
-        views: Optional[Sequence[int]] = None, fidelity: Optional[str] = None, within: Optional[str] = None,
-        seed: Optional[int] = None, memory: Optional[PathLike] = None, what_if: Union[str, Sequence[str]] = (),
-        reference: bool = True, cache: bool = True, array_only: bool = False, trace: Optional[PathLike] = None,
-        trace_step: Optional[int] = None, maps: Optional[PathLike] = None, memory_trace: Optional[PathLike] = None,
-        block_log: Optional[Sequence[str]] = None, workload: Optional[PathLike] = None,
+        views: Optional[Sequence[int]] = None, foveation: Optional[str] = None, fidelity: Optional[str] = None,
+        within: Optional[str] = None, seed: Optional[int] = None, memory: Optional[PathLike] = None,
+        what_if: Union[str, Sequence[str]] = (), reference: bool = True, cache: bool = True, array_only: bool = False,
+        trace: Optional[PathLike] = None, trace_step: Optional[int] = None, maps: Optional[PathLike] = None,
+        memory_trace: Optional[PathLike] = None, block_log: Optional[Sequence[str]] = None,
+        workload: Optional[PathLike] = None,
         keys: Optional[Mapping[str, Any]] = None, out: Optional[PathLike] = None, **top_keys: Any) -> Report:
     """Simulates a frame, or a path of `frames` frames, of `scene` on `design`; the options are those of `degs run`.
 
     `design` is a Design, a shipped name or a file, `camera` a position in the scene's list, `width` and `height` are in
-    pixels, `path_step` in degrees, `eyes` in metres; `views` are positions of cameras that share a frame. A `workload`
-    file stands for a scene and its camera. `keys` changes keys of the design ({"span.count": 16}), as do keys without a
-    dot as arguments (clock_ghz=0.5) and sections (span={"count": 16}). Without `out`, no files are kept. May run in
-    several threads at once. Raises Error with the program's sentence."""
+    pixels, `path_step` in degrees, `eyes` in metres; `views` are positions of cameras that share a frame, `foveation` is
+    a text such as "0.5,0.5:10:25". A `workload` file stands for a scene and its camera. `keys` changes keys of the
+    design ({"span.count": 16}), as do keys without a dot as arguments (clock_ghz=0.5) and sections
+    (span={"count": 16}). Without `out`, no files are kept. May run in several threads at once. Raises Error
+    with the program's sentence."""
     chosen = (design if isinstance(design, Design) else Design(design)).with_(keys, **top_keys)
     options = options_of(scene=scene, camera=camera, camera_file=camera_file, width=width, height=height,
                          resolution=resolution, crop=crop, frames=frames, path_step=path_step, fidelity=fidelity,
                          within=within, seed=seed, memory=memory, trace=trace, trace_step=trace_step, maps=maps,
                          memory_trace=memory_trace, what_if=what_if, no_reference=not reference, no_cache=not cache,
                          array_only=array_only, workload=workload)
-    options += options_of(eyes=eyes, units_per_metre=units_per_metre,
+    options += options_of(eyes=eyes, units_per_metre=units_per_metre, foveation=foveation,
                           views=None if views is None else ",".join(str(view) for view in views))
     if block_log is not None:
         options += ["--block-log", *(str(word) for word in block_log)]

@@ -154,6 +154,12 @@ def test_views_share_a_frame():
     assert degs.run("degs-64", SCENE, width=32, views=[0, 2, 1]).views.count == 3
 
 
+def test_an_image_is_foveated():
+    report = degs.run("degs-64", SCENE, width=64, foveation="0.5,0.5:5:10")
+    assert [level["scale"] for level in report.foveation.images[0]["levels"]] == [1, 2, 4]
+    assert report.foveation.pixels_drawn < report.foveation.pixels
+
+
 def test_a_program_that_dies(monkeypatch, tmp_path):
     for script, sentence in (("kill -9 $$", "ended by the signal SIGKILL"), ("exit 3", "exit code 3"),
                              ("echo 'degs: Memory ran out.' >&2; exit 1", "^Memory ran out.$")):

@@ -41,7 +41,7 @@ void collect_recording(AcceleratorResult& result, RenderJob& job, Timeline* time
 std::uint64_t pixels_of(const std::vector<const FrameWorkload*>& frames) {
     std::uint64_t pixels = 0;
     for (const FrameWorkload* frame : frames) {
-        pixels += std::uint64_t{1} * frame->camera.width * frame->camera.height;
+        pixels += frame->grid().shown_pixels();
     }
     return pixels;
 }

@@ -44,7 +44,7 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
     } else {
         cloud();
     }
-    views_ = path.group.views();
+    views_ = path.group.images();
     PathSource source;
     source.camera = request_.camera;
     source.camera_at = [this](int position) {
@@ -55,7 +55,36 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
     source.stands_still = dynamic_ != nullptr;
     source.cloud = [this]() -> const GaussianCloud& { return cloud(); };
     cameras_ = cameras_of_frames(path, source);
+    if (path.group.foveation) {
+        foveate(*path.group.foveation);
+    }
     load_s_ += load_s_ > 0 ? 0 : clock.seconds();
+}
+
+void CachedView::foveate(const Foveation& foveation) {
+    const auto images = static_cast<std::size_t>(views_);
+    foveated_ = FoveatedViews{foveation, {}};
+    std::vector<Camera> all;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < cameras_.size(); ++k) {
+        FoveatedView view{cameras_[k], levels_of(cameras_[k], foveation)};
+        count = k == 0 ? view.levels.size() : count;
+        if (view.levels.size() != count) {
+            throw InputError("--foveation gives the first camera " + std::to_string(count) +
+                             " levels and camera " + std::to_string(k) + " of the run " +
+                             std::to_string(view.levels.size()) +
+                             ", but all must have as many; cameras of one size and focal length "
+                             "are needed, or other angles.");
+        }
+        for (const FoveatedLevel& level : view.levels) {
+            all.push_back(level.camera);
+        }
+        if (k < images) {
+            foveated_->images.push_back(std::move(view));
+        }
+    }
+    views_ *= static_cast<int>(count);
+    cameras_ = std::move(all);
 }
 
 void CachedView::open_workload(const PathRequest& path) {
@@ -163,6 +192,25 @@ Reference CachedView::reference(const FrameWorkload& frame) {
                          ? make_reference(frame)
                          : make_reference(cloud(), frame, workload_s_);
     reference_made_ = reference_made_ || made.render_s > kWorthKeeping;
+    return made;
+}
+
+Reference CachedView::full_reference(const Camera& camera, const FrameWorkload& frame) {
+    FrameWorkload full; // without splats, until it is sure that they are needed
+    full.camera = camera;
+    full.projection = reference_options(frame);
+    full.tile_size = frame.tile_size;
+    full.tile_mode = frame.tile_mode;
+    if (std::optional<Reference> kept = cache_.reference(frame_key(0), full)) {
+        return std::move(*kept);
+    }
+    const Stopwatch clock;
+    full = make_frame_workload(cloud(), camera, full.tile_size, full.tile_mode, full.projection);
+    workload_s_ += clock.seconds();
+    Reference made = make_reference(full);
+    if (made.render_s > kWorthKeeping) {
+        cache_.keep(frame_key(0), full, made);
+    }
     return made;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/cache/frame_cache.hpp"
+#include "sim/simulation/foveated_image.hpp"
 #include "sim/simulation/view.hpp"
 #include "sim/workload_file/workload_file.hpp"
 
@@ -27,6 +28,9 @@ public:
     const std::vector<Camera>& cameras() const { return cameras_; }
     /// Views of a frame follow each other among the cameras and the frames.
     int views() const { return views_; }
+    /// The images of the first frame if they are foveated; the views of a frame are their levels,
+    /// image by image.
+    const std::optional<FoveatedViews>& foveated() const { return foveated_; }
     /// The frames with colours that the views of each share: those from their middle.
     std::vector<FrameWorkload> with_shared_colours(const std::vector<FrameWorkload>& frames);
     /// The frames with the tiles of the accelerator, projected in its numbers.
@@ -35,6 +39,9 @@ public:
     void require_reference(const FrameWorkload& frame) const;
     /// The reference of such a frame.
     Reference reference(const FrameWorkload& frame);
+    /// The reference of a foveated image without foveation, drawn by the rules of `frame`. Kept at
+    /// once if it took some time.
+    Reference full_reference(const Camera& camera, const FrameWorkload& frame);
     /// Something had to be made from the Gaussians, which are still there.
     bool has_cloud() const { return !scene_.cloud.empty(); }
     /// Frees the Gaussians; they are loaded again if they are needed after all.
@@ -48,6 +55,8 @@ public:
 
 private:
     void open_workload(const PathRequest& path);
+    /// Puts the levels of each camera in its place. Throws InputError if their numbers differ.
+    void foveate(const Foveation& foveation);
     /// A frame of the workload file.
     FrameWorkload packed_frame(const std::string& wanted_by, const ProjectionOptions& options,
                                int tile_size, TileMode mode);
@@ -64,6 +73,7 @@ private:
     std::optional<WorkloadFile> workload_;  ///< instead of a scene
     SceneFacts facts_;
     std::vector<Camera> cameras_;
+    std::optional<FoveatedViews> foveated_;
     int views_ = 1;
     double load_s_ = 0, workload_s_ = 0;
     bool frames_made_ = false, reference_made_ = false; ///< and worth keeping

@@ -53,7 +53,8 @@ std::uint64_t most_bytes() {
 template <class Stream, class Value>
 void pass_camera(Stream& stream, Value& camera) {
     stream.pass(camera.id, camera.name, camera.width, camera.height, camera.fx, camera.fy,
-                camera.shift, camera.origin, camera.position, camera.camera_to_world, camera.lens);
+                camera.shift, camera.origin, camera.hole, camera.position, camera.camera_to_world,
+                camera.lens);
 }
 
 template <class Stream, class Value>
@@ -96,14 +97,15 @@ std::string frame_key(const std::string& scene, const Camera& camera, int tile_s
     return out.bytes;
 }
 
-/// With exact tiles the image does not depend on their size.
+/// With exact tiles the image does not depend on their size, unless some of them are hidden.
 std::string reference_key(const std::string& scene, const FrameWorkload& frame) {
     BinaryWriter out;
     out.put(std::string("reference"));
     out.put(scene);
     put_view(out, frame.camera, frame.projection, ProjectionNumbers().name());
     out.put(frame.tile_mode);
-    out.put(frame.tile_mode == TileMode::Exact ? 0 : frame.tile_size);
+    const bool any_size = frame.tile_mode == TileMode::Exact && frame.camera.hole.empty();
+    out.put(any_size ? 0 : frame.tile_size);
     return out.bytes;
 }
 

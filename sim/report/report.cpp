@@ -10,6 +10,7 @@
 #include "config/config_document.hpp"
 #include "scene/cameras/lens_terms.hpp"
 #include "scene/files/image_io.hpp"
+#include "sim/report/foveation_words.hpp"
 #include "sim/report/losses.hpp"
 #include "sim/report/view_words.hpp"
 #include "sim/report/what_if_words.hpp"
@@ -73,12 +74,12 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     v.end_section();
 }
 
-StatValue checksum(const std::vector<Image>& images) {
-    if (images.empty()) {
+StatValue checksum(const RunResult& result) {
+    if (result.accelerator.images.empty()) {
         return {};
     }
     char digits[9] = {};
-    std::snprintf(digits, sizeof digits, "%08x", pixel_crc32(images.front()));
+    std::snprintf(digits, sizeof digits, "%08x", pixel_crc32(image_of(result, 0)));
     return std::string(digits);
 }
 
@@ -97,7 +98,7 @@ void describe_image(const RunResult& result, StatsVisitor& v) {
     v.statistic({"crc32", "",
                  "CRC-32 of the pixels of image.png, red, green and blue from the top left, in "
                  "hexadecimal."},
-                checksum(result.accelerator.images));
+                checksum(result));
     if (v.wants(!error)) {
         v.text("why",
                result.sampling ? "a sample of the tiles leaves most of the image undrawn"
@@ -248,6 +249,10 @@ ordered_json camera_json(const Camera& camera) {
         json["cy"] = point.y;
         json["raster_origin"] = {camera.origin.x, camera.origin.y};
     }
+    if (!camera.hole.empty()) {
+        const PixelBox hole = camera.hole.relative_to(camera.origin.x, camera.origin.y);
+        json["hole"] = {hole.x0, hole.y0, hole.width(), hole.height()};
+    }
     if (!camera.lens.is_pinhole()) {
         const LensTerms lens = terms_of(camera.lens);
         json["camera_model"] = lens.model;
@@ -289,6 +294,9 @@ ordered_json report(const RunResult& result) {
     }
     if (!result.views.empty()) {
         json["views"] = views_json(result);
+    }
+    if (result.foveation) {
+        json["foveation"] = foveation_json(result);
     }
     if (result.sampling) {
         json["sampling"] = sampling_json(*result.sampling);

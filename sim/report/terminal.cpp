@@ -9,8 +9,10 @@
 #include "base/visible_text.hpp"
 #include "config/config_words.hpp"
 #include "modules/kit/accelerator/waiting_causes.hpp"
+#include "sim/report/foveation_words.hpp"
 #include "sim/report/losses.hpp"
 #include "sim/report/view_words.hpp"
+#include "sim/simulation/foveated_run.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/words.hpp"
 
@@ -33,18 +35,21 @@ std::string similarity(double ssim) {
 }
 
 std::string scene_line(const RunResult& result) {
-    const auto& reference = result.workload.reference;
-    const std::uint64_t fragments =
-        reference ? reference->fragments : result.accelerator.fragments();
+    const auto& first = result.workload.reference;
+    // The first view of a foveated frame is not a whole image.
+    const bool reference = first && !result.foveation;
+    const std::uint64_t fragments = reference ? first->fragments : result.accelerator.fragments();
     // The reference shows the first frame, and the accelerator counts those of all frames.
     const AcceleratorResult& run = result.accelerator;
     const std::size_t frames = reference           ? 1
                                : run.views.empty() ? run.frames.size()
                                                    : run.views.size();
-    const std::uint64_t pixels = result.camera.pixels() * std::max<std::size_t>(frames, 1);
+    const std::uint64_t pixels = result.foveation
+                                     ? drawn_pixels(result) * run.frames.size()
+                                     : result.camera.pixels() * std::max<std::size_t>(frames, 1);
     const std::uint64_t visible = result.workload.visible; // in the first frame alone
-    return scene_words(result.scene) + kDot + grouped(visible) + " visible" + kDot +
-           scaled(fragments) + " fragments " +
+    return scene_words(result.scene) + kDot + grouped(visible) + " visible" +
+           (result.foveation ? " in the fovea" : "") + kDot + scaled(fragments) + " fragments " +
            (frames > 1
                 ? "in " + std::to_string(frames) + (run.views.empty() ? " frames " : " views ")
                 : "") +
@@ -68,8 +73,8 @@ std::string frame_line(const RunResult& result) {
     const Cycle latency = run.frames.empty() ? 0 : run.frames.front().finished;
     const double ms = rate_of(latency, run.clock_ghz) * 1e-6;
     const std::optional<double> steady = steady_fps(run);
-    const std::size_t views = std::max<std::size_t>(1, result.views.size());
-    return (views > 1 ? std::to_string(views) + " × " : "") + size_words(result.camera) + kDot +
+    const std::size_t images = images_of(result);
+    return (images > 1 ? std::to_string(images) + " × " : "") + size_words(result.camera) + kDot +
            three_digits(ms) + " ms" + kDot + (ms > 0 ? three_digits(1e3 / ms) : "-") + " fps" +
            kDot +
            (steady ? three_digits(*steady) + " fps over " + std::to_string(run.frames.size()) +
@@ -263,6 +268,9 @@ std::string summary(const RunResult& result, const std::string& image_path) {
     }
     if (!result.views.empty()) {
         block.push_back({"views", views_words(result)});
+    }
+    if (result.foveation) {
+        block.push_back({"foveation", foveation_words(result)});
     }
     if (result.changes) {
         block.push_back({"changes", changes_words(*result.changes)});

@@ -39,10 +39,6 @@ ordered_json share_json(const Share& share) {
             {"energy_nj", share.energy_nj}};
 }
 
-ordered_json decibels(double value) {
-    return std::isinf(value) ? ordered_json("inf") : ordered_json(value);
-}
-
 ordered_json view_json(const RunResult& result, std::size_t v) {
     const ViewFacts& view = result.views[v];
     const FrameDates& dates = result.accelerator.views[v];
@@ -54,7 +50,7 @@ ordered_json view_json(const RunResult& result, std::size_t v) {
     json["tile_pairs"] = view.workload.tile_pairs;
     json["preprocessing_cycles"] = dates.preprocessed;
     json["finished_cycles"] = dates.finished;
-    json["psnr_db"] = view.error ? decibels(view.error->psnr_db) : ordered_json();
+    json["psnr_db"] = view.error ? decibels_json(view.error->psnr_db) : ordered_json();
     json["ssim"] = view.error ? ordered_json(view.error->ssim) : ordered_json();
     json["max_abs_error"] = view.error ? ordered_json(view.error->max_abs_error) : ordered_json();
     json["crc32"] = digits;
@@ -62,6 +58,10 @@ ordered_json view_json(const RunResult& result, std::size_t v) {
 }
 
 } // namespace
+
+ordered_json decibels_json(double value) {
+    return std::isinf(value) ? ordered_json("inf") : ordered_json(value);
+}
 
 ordered_json views_json(const RunResult& result) {
     const AcceleratorResult& run = result.accelerator;
@@ -86,8 +86,8 @@ std::string views_words(const RunResult& result) {
                         name_of(result.config.accelerator().view_sharing()) + " · each " +
                         scaled(view.cycles) + " cycles, " + scaled_bytes(bytes) + ", " +
                         three_digits(view.energy_nj * kMjPerNj) + " mJ";
-    for (std::size_t v = 1; v < result.views.size() && result.views[v].error; ++v) {
-        const double psnr = result.views[v].error->psnr_db;
+    for (std::size_t v = 1; v < images_of(result) && error_of(result, v); ++v) {
+        const double psnr = error_of(result, v)->psnr_db;
         words += " · image-" + std::to_string(v) + " " +
                  (std::isinf(psnr) ? "identical" : three_digits(psnr) + " dB");
     }

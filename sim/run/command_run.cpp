@@ -19,6 +19,7 @@
 #include "sim/shell/commands.hpp"
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"
+#include "sim/simulation/foveated_run.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/trace/block_log.hpp"
@@ -75,7 +76,7 @@ std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
     if (options.path.frames > 1) {
         refuse("--frames");
     }
-    if (options.path.group.views() > 1) {
+    if (options.path.group.may_have_views()) {
         throw InputError(kSeveralViews + "--within or --fidelity sampled.");
     }
     return sampling;
@@ -101,7 +102,7 @@ void refuse_beside_analytic(const RunOptions& options) {
                              "analytic.");
         }
     }
-    if (options.path.group.views() > 1) {
+    if (options.path.group.may_have_views()) {
         throw InputError(kSeveralViews + "--fidelity analytic.");
     }
 }
@@ -118,21 +119,34 @@ void estimate(const RunOptions& options) {
     print(analytic_text(run));
 }
 
-/// References of the views of the first frame, none if they are not asked for.
-std::vector<Reference> references_of(const std::vector<FrameWorkload>& workloads,
-                                     const RunRequest& request, CachedView& view) {
-    std::vector<Reference> references;
-    references.reserve(request.views);
+/// What the first frame is compared with.
+struct References {
+    std::vector<Reference> views;
+    std::vector<Reference> full; ///< of foveated images: without foveation
+};
+
+References references_of(const std::vector<FrameWorkload>& workloads, const RunRequest& request,
+                         CachedView& view) {
+    References references;
+    references.views.reserve(request.views);
     for (int v = 0; v < request.views; ++v) {
-        references.push_back(view.reference(workloads[v]));
+        references.views.push_back(view.reference(workloads[v]));
+    }
+    if (view.foveated()) {
+        for (const FoveatedView& image : view.foveated()->images) {
+            references.full.push_back(view.full_reference(image.camera, workloads.front()));
+        }
     }
     return references;
 }
 
-void judge_views(RunResult& result, const std::vector<Reference>& references) {
-    judge(result, references.front());
+void judge_views(RunResult& result, const References& references) {
+    judge(result, references.views.front());
     for (std::size_t v = 0; v < result.views.size(); ++v) {
-        judge_view(result, v, references[v]);
+        judge_view(result, v, references.views[v]);
+    }
+    if (result.foveation) {
+        judge_foveation(result, references.views, references.full);
     }
 }
 
@@ -145,9 +159,10 @@ RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& 
         view.require_reference(workloads.front());
     }
     std::vector<WhatIf> worth = what_if(request.config, changed, workloads.front(), view);
-    std::vector<Reference> references; // now if they need Gaussians that are there
-    const bool from_scene = request.reference && view.has_cloud() &&
-                            !workloads.front().projection.numbers.is_reference();
+    References references; // now if they need Gaussians that are there
+    const bool from_scene =
+        request.reference && view.has_cloud() &&
+        (!workloads.front().projection.numbers.is_reference() || view.foveated());
     if (from_scene && !request.sampling) {
         references = references_of(workloads, request, view);
     }
@@ -164,8 +179,11 @@ RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& 
     RunResult result = run_frames(request, frames);
     put_scene(view.facts(), result);
     result.what_if = std::move(worth);
+    if (view.foveated()) {
+        put_foveation(*view.foveated(), result);
+    }
     if (request.reference && !result.sampling) { // most of a sample's image is missing
-        if (references.empty()) {
+        if (references.views.empty()) {
             references = references_of(workloads, request, view);
         }
         judge_views(result, references);
@@ -175,7 +193,7 @@ RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& 
     result.host.workload_s = view.workload_s();
     result.host.wall_s = view.load_s() + wall.seconds();
     result.host.peak_rss_bytes = peak_rss_bytes();
-    view.keep(workloads, references);
+    view.keep(workloads, references.views);
     return result;
 }
 
@@ -202,7 +220,7 @@ std::vector<ChangedDesign> wanted_changes(const RunOptions& options, const RunCo
         throw InputError("--what-if estimates whole frames, so it cannot be combined with "
                          "--array-only.");
     }
-    if (options.path.group.views() > 1 && !options.what_if.empty()) {
+    if (options.path.group.may_have_views() && !options.what_if.empty()) {
         throw InputError(kSeveralViews + "--what-if.");
     }
     return changed_designs(config, options.what_if);
@@ -210,19 +228,19 @@ std::vector<ChangedDesign> wanted_changes(const RunOptions& options, const RunCo
 
 std::vector<std::string> result_files(const RunOptions& options) {
     std::vector<std::string> files = image_result_files("report.json");
-    for (int v = 1; v < options.path.group.views(); ++v) {
+    for (int v = 1; v < options.path.group.images(); ++v) {
         files.push_back(view_file("image", v, ".exr"));
         files.push_back(view_file("image", v, ".png"));
     }
     return files;
 }
 
-/// Files of an earlier run that tell nothing of this one: maps of tiles, and images of more views.
+/// Files of an earlier run that tell nothing of this one: maps of tiles, and further images.
 std::vector<std::string> old_files(const OutputFolder& out, const std::optional<OutputFolder>& maps,
-                                   std::size_t views) {
+                                   std::size_t images) {
     std::vector<std::string> paths = old_tile_maps(out, maps);
     const auto there = [](const std::string& path) { return std::filesystem::exists(path); };
-    for (std::size_t v = views;; ++v) {
+    for (std::size_t v = images;; ++v) {
         const std::string exr = out.path(view_file("image", v, ".exr"));
         const std::string png = out.path(view_file("image", v, ".png"));
         if (!there(exr) || !there(png)) {
@@ -236,9 +254,9 @@ std::vector<std::string> old_files(const OutputFolder& out, const std::optional<
 void write_results(const RunOptions& options, const RunRequest& request, const RunResult& result,
                    const OutputFolder& out, const std::optional<OutputFolder>& maps) {
     const AcceleratorResult& run = result.accelerator;
-    for (std::size_t v = 0; v < std::max<std::size_t>(1, result.views.size()); ++v) {
-        write_exr(run.images[v], out.path(view_file("image", v, ".exr")));
-        write_png(run.images[v], out.path(view_file("image", v, ".png")));
+    for (std::size_t v = 0; v < images_of(result); ++v) {
+        write_exr(image_of(result, v), out.path(view_file("image", v, ".exr")));
+        write_png(image_of(result, v), out.path(view_file("image", v, ".png")));
     }
     out.write_json("report.json", report(result));
     if (request.recording.timeline) {
@@ -260,6 +278,10 @@ void run(const RunOptions& options) {
         return estimate(options);
     }
     const std::optional<SamplingRequest> sampling = wanted_sampling(options);
+    if (options.path.group.foveation && !options.maps.empty()) {
+        throw InputError("--maps shows the tiles of one view, and --foveation draws an image in "
+                         "several; only one of the two is allowed.");
+    }
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
     const std::vector<ChangedDesign> changed = wanted_changes(options, config);
     PathRequest path = options.path;
@@ -273,7 +295,7 @@ void run(const RunOptions& options) {
     request.build.array_only = options.array_only;
     request.reference = !options.no_reference;
     request.sampling = sampling;
-    request.views = path.group.views();
+    request.views = view.views();
     std::optional<OutputFolder> maps;
     if (!options.maps.empty()) {
         maps.emplace(options.maps, tile_map_files());
@@ -296,7 +318,7 @@ void run(const RunOptions& options) {
                 simulate_traced(options.memory_trace, request, changed, view, since_start));
             write_results(options, request, *result, out, maps);
         },
-        old_files(out, maps, request.views));
+        old_files(out, maps, path.group.images()));
     print_warnings(result->warnings);
     print(summary(*result, out.path("image.exr")) + what_if_text(result->what_if) +
           (options.explain ? explanation(*result) : ""));
@@ -312,6 +334,7 @@ void add_run_command(CLI::App& program) {
     add_view_or_workload_options(*command, options->view);
     add_path_options(*command, options->path);
     add_group_options(*command, options->path.group);
+    add_foveation_option(*command, options->path.group);
     command
         ->add_option("--fidelity", options->fidelity,
                      "exact; strict: synchronise every cycle, the results are the same; "

@@ -33,7 +33,7 @@ std::map<GroupKind, std::vector<std::size_t>> groups_of(const CompareRequest& re
     std::map<GroupKind, std::vector<std::size_t>> groups;
     for (const std::size_t c : configs) {
         const AcceleratorConfig& design = request.configs[c].config.accelerator();
-        const bool shared = shares_colours(design, request.path.group.views());
+        const bool shared = shares_colours(design, request.path.group.images());
         groups[{frame_kind(design, traits), shared, ViewRuns::follows(request, c, camera)}]
             .push_back(c);
     }
@@ -172,7 +172,7 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
     try {
         const ImageSize& size = request_.sizes[place.size];
         const Camera first = camera_at(scene, size, place.camera);
-        const int views = request_.path.group.views();
+        const int views = request_.path.group.images();
         place.words += " · " + (views > 1 ? std::to_string(views) + " × " : std::string()) +
                        std::to_string(first.width) + "×" + std::to_string(first.height);
         place.view = views_++;

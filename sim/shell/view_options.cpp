@@ -180,6 +180,17 @@ void add_group_options(CLI::App& command, GroupRequest& request) {
     }
 }
 
+void add_foveation_option(CLI::App& command, GroupRequest& request) {
+    command
+        .add_option_function<std::string>(
+            "--foveation",
+            [&request](const std::string& text) { request.foveation = foveation_of(text); },
+            "point looked at, in shares of width and height, and degrees from there: full "
+            "resolution up to FOVEA, half up to PERIPHERY, a quarter beyond")
+        ->type_name("X,Y:FOVEA:PERIPHERY")
+        ->excludes(command.get_option("--workload"));
+}
+
 void add_sampling_options(CLI::App& command, std::optional<std::string>& within,
                           std::uint64_t& seed) {
     command

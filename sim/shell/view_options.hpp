@@ -54,6 +54,9 @@ CLI::Option* add_eyes_option(CLI::App& command, GroupRequest& request);
 /// and --path-step.
 void add_group_options(CLI::App& command, GroupRequest& request);
 
+/// Adds --foveation, the levels of each image, to a command with --workload.
+void add_foveation_option(CLI::App& command, GroupRequest& request);
+
 /// Adds --within and --seed, for commands that may simulate a sample of the tiles.
 void add_sampling_options(CLI::App& command, std::optional<std::string>& within,
                           std::uint64_t& seed);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/simulation/simulation.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -34,9 +35,12 @@ WorkloadFacts facts_of(const FrameWorkload& workload) {
     facts.culled = workload.culled;
     facts.projection = workload.projection;
     facts.tile_size = workload.tile_size;
-    facts.tiles = workload.tiles();
-    for (std::size_t t = 0; t < facts.tiles; ++t) {
-        facts.empty_tiles += workload.tile_begin[t] == workload.tile_begin[t + 1] ? 1 : 0;
+    const TileGrid grid = workload.grid();
+    facts.tiles = grid.shown_tiles();
+    facts.pixels = grid.shown_pixels();
+    for (int t = 0; t < workload.tiles(); ++t) {
+        const bool lists = workload.tile_begin[t] != workload.tile_begin[t + 1];
+        facts.empty_tiles += lists || grid.is_hidden(t) ? 0 : 1;
     }
     return facts;
 }
@@ -137,6 +141,22 @@ std::vector<const FrameWorkload*> first_views(const std::vector<const FrameWorkl
         first.push_back(frames[f]);
     }
     return first;
+}
+
+std::size_t images_of(const RunResult& result) {
+    return result.foveation ? result.foveation->images.size()
+                            : std::max<std::size_t>(1, result.views.size());
+}
+
+const Image& image_of(const RunResult& result, std::size_t image) {
+    return result.foveation ? result.foveation->images[image].image
+                            : result.accelerator.images[image];
+}
+
+const std::optional<ImageError>& error_of(const RunResult& result, std::size_t image) {
+    return result.foveation       ? result.foveation->images[image].error
+           : result.views.empty() ? result.error
+                                  : result.views[image].error;
 }
 
 namespace {

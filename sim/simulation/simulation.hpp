@@ -11,6 +11,7 @@
 #include "scene/dynamic_scene.hpp"
 #include "sim/accelerator/accelerator_run.hpp"
 #include "sim/sampling/sampled_run.hpp"
+#include "sim/simulation/foveated_image.hpp"
 #include "sim/simulation/frame_changes.hpp"
 #include "sim/simulation/run_config.hpp"
 #include "sim/simulation/view.hpp"
@@ -46,7 +47,7 @@ struct WorkloadFacts {
     CullCounts culled;
     ProjectionOptions projection; ///< of the accelerator's splats
     int tile_size = 0;
-    std::uint64_t tiles = 0, empty_tiles = 0;
+    std::uint64_t tiles = 0, empty_tiles = 0, pixels = 0; ///< without hidden tiles
     std::optional<ReferenceCounts> reference;
 };
 
@@ -74,13 +75,14 @@ struct RunResult {
     RunConfig config;
     WorkloadFacts workload; ///< of that view
     AcceleratorResult accelerator;
-    std::vector<std::string> movable_keys; ///< see LossKeys::movable; asked before the simulation
-    std::vector<std::string> warnings;     ///< sentences; see warnings.hpp
-    std::optional<ImageError> error;       ///< of that view against the reference
-    std::vector<ViewFacts> views;          ///< of the first frame, if it has several
-    std::optional<FrameChanges> changes;   ///< of a run of several frames
-    std::optional<SamplingFacts> sampling; ///< if the numbers are estimates from a sample
-    std::vector<WhatIf> what_if;           ///< changes that were asked for (--what-if)
+    std::vector<std::string> movable_keys;   ///< see LossKeys::movable; asked before the simulation
+    std::vector<std::string> warnings;       ///< sentences; see warnings.hpp
+    std::optional<ImageError> error;         ///< of that view against the reference
+    std::vector<ViewFacts> views;            ///< of the first frame, if it has several
+    std::optional<FoveationFacts> foveation; ///< then `camera` and `error` are of its first image
+    std::optional<FrameChanges> changes;     ///< of a run of several frames
+    std::optional<SamplingFacts> sampling;   ///< if the numbers are estimates from a sample
+    std::vector<WhatIf> what_if;             ///< changes that were asked for (--what-if)
     HostFacts host;
 };
 
@@ -130,6 +132,11 @@ void judge_view(RunResult& result, std::size_t view, const Reference& reference,
 /// The first view of every frame.
 std::vector<const FrameWorkload*> first_views(const std::vector<const FrameWorkload*>& frames,
                                               std::size_t views);
+
+/// Images of the first frame, and one of them: a view's, or composed from the levels of one.
+std::size_t images_of(const RunResult& result);
+const Image& image_of(const RunResult& result, std::size_t image);
+const std::optional<ImageError>& error_of(const RunResult& result, std::size_t image);
 
 /// Runs the accelerator on frames that were made for it (at least one). The caller fills in the
 /// facts of the scene, the host times of earlier steps and the comparison. Throws std::logic_error

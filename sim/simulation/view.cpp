@@ -49,8 +49,8 @@ std::string in_small_letters(std::string text) {
 } // namespace
 
 const std::string kSeveralViews =
-    "Estimates are of frames with one view, so several views of a frame (--eyes or --views, or "
-    "those keys of a study) cannot be combined with ";
+    "Estimates are of frames with one view, so several views of a frame (--eyes, --views "
+    "or --foveation, or keys of a study) cannot be combined with ";
 
 void check_positive(const char* option, std::optional<int> value) {
     if (value && *value < 1) {
@@ -148,6 +148,32 @@ PixelBox crop_of(const std::string& text) {
                          "height in pixels of the part of the image, as in 64,32,320x240.");
     }
     return {numbers[0], numbers[1], numbers[0] + numbers[2] - 1, numbers[1] + numbers[3] - 1};
+}
+
+Foveation foveation_of(const std::string& text) {
+    std::array<double, 4> numbers{}; // X, Y, FOVEA, PERIPHERY
+    const std::string behind = ",::";
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    bool good = true;
+    for (std::size_t i = 0; i < numbers.size() && good; ++i) {
+        const auto [rest, error] = std::from_chars(at, end, numbers[i]);
+        const bool last = i + 1 == numbers.size();
+        good = error == std::errc() && (last ? rest == end : rest != end);
+        good = good && (last || *rest == behind[i]);
+        at = rest + 1;
+    }
+    const auto [x, y, fovea, periphery] = numbers;
+    // Phrased so that NaN fails.
+    if (!(good && x >= 0 && x <= 1 && y >= 0 && y <= 1 && fovea > 0 && fovea <= periphery &&
+          periphery <= 90)) {
+        throw InputError("--foveation is '" + text +
+                         "', but must be X,Y:FOVEA:PERIPHERY: the point looked at in shares 0 .. 1 "
+                         "of width and height, and how many degrees from there the fovea ends and "
+                         "the periphery begins, above 0, in this order and up to 90, as in "
+                         "0.5,0.5:10:25.");
+    }
+    return {{x, y}, fovea, periphery};
 }
 
 Camera resize(const Camera& camera, std::optional<int> width, std::optional<int> height) {

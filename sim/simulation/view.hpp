@@ -9,6 +9,7 @@
 
 #include "scene/cameras/camera_path.hpp"
 #include "scene/scene.hpp"
+#include "splat/foveation/foveation.hpp"
 
 namespace degs::sim {
 
@@ -50,16 +51,19 @@ int resolution_height(const std::string& name);
 constexpr double kMostEyeDistance = 1000; ///< m
 constexpr double kLeastUnitsPerMetre = 1e-6, kMostUnitsPerMetre = 1e6;
 
-/// Several views of each frame: the eyes of a head, or cameras of the scene.
+/// Several views of each frame: the eyes of a head, cameras of the scene, or the levels of a
+/// foveated image.
 struct GroupRequest {
-    std::optional<double> eyes_m; ///< distance of two eyes, m
-    double units_per_metre = 1;   ///< scene units
-    std::vector<int> cameras;     ///< positions in the scene's list; empty: none
+    std::optional<double> eyes_m;       ///< distance of two eyes, m
+    double units_per_metre = 1;         ///< scene units
+    std::vector<int> cameras;           ///< positions in the scene's list; empty: none
+    std::optional<Foveation> foveation; ///< of each image
 
-    /// Views of a frame.
-    int views() const {
+    /// Images of a frame; each is one view, or has one for each of its levels.
+    int images() const {
         return eyes_m ? 2 : cameras.empty() ? 1 : static_cast<int>(cameras.size());
     }
+    bool may_have_views() const { return images() > 1 || foveation; }
 };
 
 /// The sentence, up to the option, that refuses an estimate of frames with several views.
@@ -79,6 +83,10 @@ void check_positive(const char* option, std::optional<int> value);
 /// The pixels that "X,Y,WxH" names: W columns from X on, H rows from Y on, from the upper left
 /// corner. Throws InputError for anything else, and for less than a pixel.
 PixelBox crop_of(const std::string& text);
+
+/// What "X,Y:FOVEA:PERIPHERY" asks for: a point of the image in shares of its sides, and two angles
+/// from there in degrees. Throws InputError for anything else.
+Foveation foveation_of(const std::string& text);
 
 /// Loads the scene, resizes the camera and crops it. Throws InputError.
 View load_view(const ViewRequest& request);

@@ -131,7 +131,7 @@ void check_scenes(const std::vector<std::string>& scenes) {
 std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
                                                  std::uint64_t seed, const PathRequest& path) {
     std::optional<SamplingRequest> sampling = sampling_of("exact", within, seed);
-    if (sampling && path.group.views() > 1) {
+    if (sampling && path.group.images() > 1) {
         throw InputError(kSeveralViews + "--within.");
     }
     if (sampling && path.frames > 1) {
@@ -232,7 +232,7 @@ void check_estimates(const CompareRequest& request) {
     if (!request.analytic) {
         return;
     }
-    if (request.path.group.views() > 1) {
+    if (request.path.group.images() > 1) {
         throw InputError(kSeveralViews + "the fidelity analytic.");
     }
     const std::pair<bool, const char*> asked[] = {

@@ -114,7 +114,7 @@ std::string size_of(const StudyPlan& plan, const StudyPoint& point,
         camera = cameras.at(point.camera);
     }
     const ImageSize& size = plan.request.sizes[point.size];
-    const int views = plan.request.path.group.views();
+    const int views = plan.request.path.group.images();
     return (views > 1 ? std::to_string(views) + " × " : "") +
            size_words(resize_and_crop(camera, size.width, size.height, plan.request.crop));
 }

@@ -100,7 +100,7 @@ void check_memory(const Finished& run, Complaints& complaints) {
     std::uint64_t pixels = 0;
     std::uint64_t gaussians = 0;
     for (const FrameWorkload* frame : run.frames) {
-        pixels += static_cast<std::uint64_t>(frame->camera.width) * frame->camera.height;
+        pixels += frame->grid().shown_pixels();
         gaussians += frame->gaussians;
     }
     if (run.config.view_sharing() != ViewSharing::Nothing) { // views of a frame read them once
@@ -140,7 +140,7 @@ void check_energy(const Finished& run, Complaints& complaints) {
 void check_tiles(const Finished& run, Complaints& complaints) {
     std::uint64_t tiles = 0;
     for (const FrameWorkload* frame : run.frames) {
-        tiles += static_cast<std::uint64_t>(frame->tiles());
+        tiles += frame->grid().shown_tiles();
     }
     complaints.equal("tiles rendered and background",
                      run.result.tiles + run.result.background_tiles, tiles);

@@ -66,6 +66,11 @@ void draw_scene(Dice& dice, Trial& trial) {
         const double distances[] = {0, 0.065, 0.5, 20};
         trial.eyes = distances[dice.below(4)];
     }
+    if (dice.chance(0.25)) {
+        const char* const centres[] = {"0.5,0.5", "0,1", "0.9,0.3"};
+        const char* const angles[] = {"5:12", "15:30", "20:20", "1:90", "60:70"};
+        trial.foveation = std::string(centres[dice.below(3)]) + ":" + angles[dice.below(5)];
+    }
     trial.array_only = dice.chance(0.2);
 }
 

@@ -76,6 +76,7 @@ void add_run_command(CLI::App& app, Trial& trial, Options& options) {
     run->add_option("--frames", trial.frames);
     run->add_option("--path-step", trial.step_degrees);
     run->add_option("--eyes", trial.eyes);
+    run->add_option("--foveation", trial.foveation);
     run->add_flag("--array-only", trial.array_only);
     run->add_option_function<std::vector<std::string>>(
            "--set",

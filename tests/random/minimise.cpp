@@ -27,6 +27,7 @@ public:
     void plain_run() {
         try_with([](Trial& trial) { trial.array_only = false; });
         try_with([](Trial& trial) { trial.eyes = {}; });
+        try_with([](Trial& trial) { trial.foveation.clear(); });
         try_with([](Trial& trial) { trial.frames = 1; });
         if (trial_.frames > 2) {
             try_with([](Trial& trial) { trial.frames = 2; });

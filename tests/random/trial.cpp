@@ -40,6 +40,9 @@ std::string Trial::arguments() const {
     if (eyes) {
         line += " --eyes " + number(*eyes);
     }
+    if (!foveation.empty()) {
+        line += " --foveation " + foveation;
+    }
     if (array_only) {
         line += " --array-only";
     }

@@ -22,6 +22,7 @@ struct Trial {
     int frames = 1;
     double step_degrees = 0.5;
     std::optional<double> eyes; ///< distance, scene units: two views in each frame
+    std::string foveation;      ///< as of --foveation; empty: none
     bool array_only = false;
 
     std::vector<std::string> overrides() const;

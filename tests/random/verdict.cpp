@@ -11,6 +11,7 @@
 #include "scene/cameras/eyes.hpp"
 #include "sim/report/report.hpp"
 #include "sim/simulation/simulation.hpp"
+#include "splat/foveation/foveation.hpp"
 #include "tests/random/promises.hpp"
 
 namespace degs::trials {
@@ -51,7 +52,7 @@ std::uint64_t hash_of(const std::vector<Image>& images) {
 }
 
 /// The cameras of all frames, one for each eye.
-std::vector<Camera> cameras_of(const Trial& trial, const sim::View& view) {
+std::vector<Camera> eyes_on_path(const Trial& trial, const sim::View& view) {
     std::vector<Camera> heads =
         camera_path(view.scene.cloud, view.camera, trial.frames, trial.step_degrees);
     if (!trial.eyes) {
@@ -65,6 +66,21 @@ std::vector<Camera> cameras_of(const Trial& trial, const sim::View& view) {
     return eyes;
 }
 
+/// The cameras of all views: those eyes, or the levels that each of them has.
+std::vector<Camera> cameras_of(const Trial& trial, const sim::View& view) {
+    const std::vector<Camera> eyes = eyes_on_path(trial, view);
+    if (trial.foveation.empty()) {
+        return eyes;
+    }
+    std::vector<Camera> levels;
+    for (const Camera& eye : eyes) {
+        for (FoveatedLevel& level : levels_of(eye, sim::foveation_of(trial.foveation))) {
+            levels.push_back(std::move(level.camera));
+        }
+    }
+    return levels;
+}
+
 /// In the child: runs the trial and says everything about it but what the machine took.
 std::string run_one(const Trial& trial, const std::string& configs, const std::string& cameras,
                     const Limits& limits, Fidelity fidelity) {
@@ -76,10 +92,10 @@ std::string run_one(const Trial& trial, const std::string& configs, const std::s
     const sim::View view =
         sim::load_view({trial.scene, cameras, trial.camera, trial.width, trial.height, "", "", ""});
     double seconds = 0;
-    const std::vector<FrameWorkload> workloads =
-        sim::make_workloads(view.scene.cloud, view.scene.traits, cameras_of(trial, view),
-                            request.config.accelerator(), seconds);
-    request.views = trial.eyes ? 2 : 1;
+    const std::vector<Camera> views = cameras_of(trial, view);
+    const std::vector<FrameWorkload> workloads = sim::make_workloads(
+        view.scene.cloud, view.scene.traits, views, request.config.accelerator(), seconds);
+    request.views = static_cast<int>(views.size()) / trial.frames;
     std::vector<const FrameWorkload*> frames;
     for (const FrameWorkload& workload : workloads) {
         frames.push_back(&workload);

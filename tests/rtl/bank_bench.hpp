@@ -94,7 +94,7 @@ private:
         const auto now = static_cast<Number>(event.now);
         if (event.kind() == "tile") {
             order_.emplace(event["tile"], static_cast<int>(order_.size()));
-            widths_[event["tile"]] = static_cast<int>(event["width"]);
+            widths_[event["tile"]] = static_cast<int>(event["last_column"]) + 1; // whole images
         } else if (event.kind() == "span" && event["tile"] != kNobody) {
             add_item(event);
             ++at(now).taken[event["port"]];

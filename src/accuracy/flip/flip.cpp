@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "accuracy/flip/flip_colour.hpp"
 #include "accuracy/flip/flip_filter.hpp"
@@ -47,13 +48,14 @@ double feature_difference(const FlipRow& row, const FlipRow& other, std::size_t 
 
 } // namespace
 
-double flip_difference(const Image& reference, const Image& test, double pixels_per_degree) {
+std::vector<double> flip_map(const Image& reference, const Image& test, double pixels_per_degree) {
     check_comparable(reference, test);
     const FlipKernels kernels(pixels_per_degree);
     FlipFilter first(reference, kernels);
     FlipFilter second(test, kernels);
     const double largest = largest_difference();
-    double sum = 0;
+    std::vector<double> differences;
+    differences.reserve(reference.pixels());
     const std::size_t width = reference.width;
     for (int y = 0; y < reference.height; ++y) {
         const FlipRow& a = first.next();
@@ -61,10 +63,15 @@ double flip_difference(const Image& reference, const Image& test, double pixels_
         for (std::size_t x = 0; x < width; ++x) {
             const double colour =
                 colour_difference({a.y[x], a.cx[x], a.cz[x]}, {b.y[x], b.cx[x], b.cz[x]}, largest);
-            sum += std::pow(colour, 1 - std::min(feature_difference(a, b, x), 1.0));
+            differences.push_back(std::pow(colour, 1 - std::min(feature_difference(a, b, x), 1.0)));
         }
     }
-    return mean_of(sum, reference.pixels());
+    return differences;
+}
+
+double flip_difference(const Image& reference, const Image& test, double pixels_per_degree) {
+    const std::vector<double> map = flip_map(reference, test, pixels_per_degree);
+    return mean_of(std::accumulate(map.begin(), map.end(), 0.0), map.size());
 }
 
 } // namespace degs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "splat/images/image.hpp"
 
 namespace degs {
@@ -16,5 +18,8 @@ constexpr double kPixelsPerDegree = 67.0206;
 /// sizes differ or the images are empty.
 double flip_difference(const Image& reference, const Image& test,
                        double pixels_per_degree = kPixelsPerDegree);
+/// The differences of which that is the mean, of each pixel row by row.
+std::vector<double> flip_map(const Image& reference, const Image& test,
+                             double pixels_per_degree = kPixelsPerDegree);
 
 } // namespace degs

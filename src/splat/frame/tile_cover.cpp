@@ -91,6 +91,29 @@ void cover_tile_row(const RowSolver& solver, const TileGrid& grid, int top, int 
     collector.close();
 }
 
+/// Takes hidden tiles out of the runs.
+void drop_hidden(const PixelBox& hidden, std::vector<TileRun>& runs) {
+    if (hidden.empty()) {
+        return;
+    }
+    std::vector<TileRun> shown;
+    shown.reserve(runs.size() + 1);
+    for (const TileRun& run : runs) {
+        if (run.row < hidden.y0 || run.row > hidden.y1) {
+            shown.push_back(run);
+            continue;
+        }
+        const TileRun before{run.row, run.first, std::min(run.last, hidden.x0 - 1)};
+        const TileRun behind{run.row, std::max(run.first, hidden.x1 + 1), run.last};
+        for (const TileRun& part : {before, behind}) {
+            if (part.first <= part.last) {
+                shown.push_back(part);
+            }
+        }
+    }
+    runs.swap(shown);
+}
+
 /// int() truncates toward zero as in the original; clamped first, so that huge radii are safe.
 /// Counted from the image's first tile.
 int clamped_tile(double tile, int first, int tiles) {
@@ -114,6 +137,7 @@ void cover_ellipse(const ProjectedSplat& splat, const TileGrid& grid, std::vecto
                                runs);
         cover_tile_row(solver, grid, top, bottom, collector);
     }
+    drop_hidden(grid.hidden(), runs);
 }
 
 void cover_square(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs) {
@@ -137,6 +161,7 @@ void cover_square(const ProjectedSplat& splat, const TileGrid& grid, std::vector
     for (int row = y0; row < y1 && x0 < x1; ++row) {
         runs.push_back({row, x0, x1 - 1});
     }
+    drop_hidden(grid.hidden(), runs);
 }
 
 } // namespace degs

@@ -14,8 +14,9 @@ struct TileRun {
 };
 
 /// The tiles that hold at least one pixel of the ellipse q <= Q_th (closed, widened by
-/// `pixel_slack`), each exactly once, as runs; `runs` is overwritten. Every integer row is solved
-/// exactly, so a diagonal needle lists its own tiles and not its bounding box.
+/// `pixel_slack`), each exactly once, as runs; `runs` is overwritten. Neither cover has hidden
+/// tiles. Every integer row is solved exactly, so a diagonal needle lists its own tiles and not its
+/// bounding box.
 void cover_ellipse(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs);
 
 /// The tiles of the original rasteriser: a square of half width ceil(3

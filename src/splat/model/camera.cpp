@@ -102,6 +102,7 @@ Camera Camera::scaled_to_width(int new_width) const {
                          std::to_string(kMaxSide) + " pixels.");
     }
     Camera scaled = *this;
+    scaled.hole = {};
     scaled.width = new_width;
     scaled.height = static_cast<int>(new_height);
     scaled.fx = fx * factor;
@@ -110,6 +111,22 @@ Camera Camera::scaled_to_width(int new_width) const {
     scaled.origin =
         glm::ivec2(glm::max(least_origin(scaled.shift), glm::floor(glm::dvec2(origin) * factor)));
     return scaled;
+}
+
+// The raster follows as closely as whole pixels allow, because limits of the projection depend on
+// it.
+Camera Camera::coarsened(int factor) const {
+    const double scale = 1.0 / factor;
+    Camera coarse = *this;
+    coarse.hole = {};
+    coarse.width = (width + factor - 1) / factor;
+    coarse.height = (height + factor - 1) / factor;
+    coarse.fx = fx * scale;
+    coarse.fy = fy * scale;
+    coarse.shift = principal_point() * scale - 0.5 * glm::dvec2(coarse.width, coarse.height);
+    coarse.origin =
+        glm::ivec2(glm::max(least_origin(coarse.shift), glm::floor(glm::dvec2(origin) * scale)));
+    return coarse;
 }
 
 } // namespace degs

@@ -32,6 +32,7 @@ struct Camera {
     Lens lens;                       ///< of slopes, so that it is the same at every size
     glm::dvec2 shift{0.0};           ///< of the principal point from the image's middle, px
     glm::ivec2 origin{0};            ///< the image's first pixel in the raster, >= 0
+    PixelBox hole;                   ///< of the raster, shown by another view; see TileGrid
     glm::dvec3 position{0.0};        ///< camera centre in world space
     glm::dmat3 camera_to_world{1.0}; ///< columns are the view axes in world space
 
@@ -74,6 +75,9 @@ struct Camera {
     /// height is rounded (at least 1), the origin down. Throws InputError if either side leaves
     /// 1 .. 65536.
     Camera scaled_to_width(int new_width) const;
+    /// This view with pixels of `factor` x `factor` of these, the first ones at the image's upper
+    /// left corner; the last column and row may reach beyond the image. `factor` >= 1.
+    Camera coarsened(int factor) const;
 };
 
 } // namespace degs

@@ -120,12 +120,12 @@ TEST(LockstepArray, SlotsAddUp) {
                     {2 + 1 + 4 + 1, 16 + 1 + 256 + 1});
 }
 
-class Termination : public ::testing::TestWithParam<int> {};
+class LockstepTermination : public ::testing::TestWithParam<int> {};
 
 // alpha = 0.98: the third of the splats ends all pixels (T = 8e-6 is refused), sub-tile s in cycle
 // 8 + s. The slots that see it start D cycles later; until then the fourth splat finds its
 // sub-tiles not done. With D = 4 they are: cycle 12 skips sub-tile 0 and goes to 1, then 2, 3.
-TEST_P(Termination, TileStopsWhenItsLastSubtileIsSeenDone) {
+TEST_P(LockstepTermination, TileStopsWhenItsLastSubtileIsSeenDone) {
     Config config;
     config.termination_cycles = GetParam();
     LockstepBench bench(
@@ -148,7 +148,7 @@ TEST_P(Termination, TileStopsWhenItsLastSubtileIsSeenDone) {
     EXPECT_TRUE(bench.all_ended[0]);
     bench.expect_sound();
 }
-INSTANTIATE_TEST_SUITE_P(Delays, Termination, ::testing::Values(1, 4));
+INSTANTIATE_TEST_SUITE_P(Delays, LockstepTermination, ::testing::Values(1, 4));
 
 // With D = 8 the last end, in cycle 11, is seen in cycle 19. A second chunk that comes before is
 // worked on, one that comes then is not wanted any more.

@@ -199,6 +199,15 @@ TEST_P(CroppedNaiveBlock, TakesAndSendsTheSame) {
 
 INSTANTIATE_TEST_SUITE_P(Designs, CroppedNaiveBlock, testing::ValuesIn(kOthers));
 
+TEST(CroppedBlockLog, OfABankIsThatOfANaiveBank) {
+    std::vector<std::string> view = kSmall;
+    view.insert(view.end(), {"--crop", "19,13,107x83"});
+    const BlockLog log = logged(view, "degs-64", "bank:3");
+    EXPECT_GT(log.count("packet"), 100U);
+    degs::test::NaiveBank naive(degs::test::NaiveFacts(log.facts()), log.events);
+    EXPECT_EQ(degs::test::first_difference(degs::test::lines_of(log.events), naive.run()), "");
+}
+
 class TrainedNaiveBlock : public testing::TestWithParam<Other> {};
 
 TEST_P(TrainedNaiveBlock, TakesAndSendsTheSame) {

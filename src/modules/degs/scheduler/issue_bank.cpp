@@ -229,7 +229,7 @@ void IssueBank::enter_tile(BankStream& stream, TileNumber number) {
     }
     stream.entered = true;
     list_started();
-    log_tile(tile_event_, number, {tile.context(), drawn.last + 1});
+    log_tile(tile_event_, number, {tile.context(), drawn.first, drawn.last});
 }
 
 template <bool single>

@@ -51,7 +51,8 @@ void IssueBank::start_log() {
     }
     terminations_->log_takes(*log_, "terminated");
     packing_.out.ring().log_puts(*log_, "packet");
-    tile_event_ = log_->kind("tile", {{"tile", {}}, {"context", {}}, {"width", {}}});
+    tile_event_ = log_->kind(
+        "tile", {{"tile", {}}, {"context", {}}, {"first_column", {}}, {"last_column", {}}});
     over_event_ = log_->kind("over", {{"tile", {}}, {"context", {}}});
     trace_ = trace_ == nullptr ? &logged_issues_ : trace_;
     trace_->log_to(*log_);

@@ -48,12 +48,13 @@ void BackgroundWriter::run() {
     self_.finish();
 }
 
-// A tile lists no splat if its part of the frame's list is empty.
+// A tile lists no splat if its part of the frame's list is empty; hidden ones are another view's.
 Completion BackgroundWriter::write_frame(std::uint32_t frame) {
     const FrameWorkload& work = *job_.frames[frame];
     Completion done = self_.local();
-    const auto empty = [&work](int tile) {
-        return work.tile_begin[tile] == work.tile_begin[tile + 1];
+    const TileGrid grid = work.grid();
+    const auto empty = [&](int tile) {
+        return work.tile_begin[tile] == work.tile_begin[tile + 1] && !grid.is_hidden(tile);
     };
     for (int row = 0; row < work.tiles_y; ++row) {
         for (int begin = 0; begin < work.tiles_x;) {

@@ -25,7 +25,7 @@ public:
         : facts_(facts), streams_(facts.streams) {
         for (const LoggedEvent& event : events) {
             if (event.kind() == "tile") {
-                widths_[event["tile"]] = event["width"];
+                columns_[event["tile"]] = {event["first_column"], event["last_column"]};
             } else if (event.has("waited")) { // it came in
                 inputs_[event.kind()][event["port"]].push_back(
                     {event, Number(event.now) - event["waited"]});
@@ -235,8 +235,10 @@ private:
             for (Number s = 0; s < per_row(); ++s) {
                 tile.domains.emplace_back();
                 for (Number i = 0; i < 32; ++i) { // pixels outside of the image have ended
+                    const Number column = s * facts_.segment_length + i;
                     const bool inside = i < facts_.segment_length &&
-                                        s * facts_.segment_length + i < widths_[number];
+                                        column >= columns_[number].first &&
+                                        column <= columns_[number].last;
                     tile.domains.back().ended |= inside ? 0 : 1U << static_cast<unsigned>(i);
                 }
             }
@@ -386,7 +388,7 @@ private:
     NaiveFeatures features_{facts_};
     NaivePacking packing_{facts_, lines_};
     std::map<std::string, std::map<Number, std::deque<Message>>> inputs_; // by kind and port
-    std::map<Number, Number> widths_;                                     // of tiles, px
+    std::map<Number, std::pair<Number, Number>> columns_; // of tiles, inside the image
     std::vector<Stream> streams_;
     std::size_t next_stream_ = 0, issued_stream_ = 0;
     Number now_ = 0, sequence_ = 0, waiting_ = 0;
