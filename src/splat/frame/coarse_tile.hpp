@@ -29,6 +29,8 @@ struct CoarseSpans {
     const CoarseSpan *first = nullptr, *last = nullptr; ///< behind the last one
     const CoarseSpan* begin() const { return first; }
     const CoarseSpan* end() const { return last; }
+    std::size_t size() const { return static_cast<std::size_t>(last - first); }
+    const CoarseSpan& front() const { return *first; }
 };
 
 /// Draws some rows of a tile splat by splat, near to far, by the rules of the reference renderer in

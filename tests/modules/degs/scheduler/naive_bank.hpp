@@ -238,7 +238,7 @@ private:
                     const Number column = s * facts_.segment_length + i;
                     const bool inside = i < facts_.segment_length &&
                                         column >= columns_[number].first &&
-                                        column <= columns_[number].last;
+                                        column <= columns_[number].second;
                     tile.domains.back().ended |= inside ? 0 : 1U << static_cast<unsigned>(i);
                 }
             }
