@@ -10,6 +10,7 @@
 #include "sim/motion/motion.hpp"
 #include "sim/motion/motion_output.hpp"
 #include "sim/process/stopwatch.hpp"
+#include "sim/report/measures.hpp"
 #include "sim/runs/run_progress.hpp"
 #include "sim/runs/view_runs.hpp"
 #include "sim/shell/output_folder.hpp"
