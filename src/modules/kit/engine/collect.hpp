@@ -45,7 +45,7 @@ struct RingUse {
     Cycle late_cycles = 0; ///< of the reader of each, see DatedFifo
 };
 
-/// Of rings together.
+/// Adds what other rings did.
 inline RingUse& operator+=(RingUse& sum, const RingUse& other) {
     sum.depth += other.depth;
     sum.high_water = std::max(sum.high_water, other.high_water);
@@ -57,7 +57,7 @@ inline RingUse& operator+=(RingUse& sum, const RingUse& other) {
     return sum;
 }
 
-/// Of a ring of `depth` cells that has these DatedFifo::Stats.
+/// What a ring of `depth` cells did, by its DatedFifo::Stats.
 template <class Stats>
 RingUse use_of(const Stats& stats, std::size_t depth) {
     return {depth,
