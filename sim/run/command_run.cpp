@@ -119,7 +119,7 @@ void estimate(const RunOptions& options) {
     print(analytic_text(run));
 }
 
-/// What the first frame is compared with.
+/// The images that the first frame is compared with.
 struct References {
     std::vector<Reference> views;
     std::vector<Reference> full; ///< of foveated images: without foveation

@@ -46,6 +46,24 @@ std::string in_small_letters(std::string text) {
     return text;
 }
 
+/// The numbers of a text that is nothing but them and the character of `between` behind each.
+template <class Number>
+std::optional<std::array<Number, 4>> four_numbers(const std::string& text,
+                                                  const std::string& between) {
+    std::array<Number, 4> numbers{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto [rest, error] = std::from_chars(at, end, numbers[i]);
+        const bool last = i == between.size();
+        if (error != std::errc() || (last ? rest != end : rest == end || *rest != between[i])) {
+            return {};
+        }
+        at = rest + 1;
+    }
+    return numbers;
+}
+
 } // namespace
 
 const std::string kSeveralViews =
@@ -129,18 +147,11 @@ int resolution_height(const std::string& name) {
 }
 
 PixelBox crop_of(const std::string& text) {
-    std::array<int, 4> numbers{}; // X, Y, W, H
-    const std::string behind = ",,x";
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    bool good = true;
-    for (std::size_t i = 0; i < numbers.size() && good; ++i) {
-        const auto [rest, error] = std::from_chars(at, end, numbers[i]);
-        const bool last = i + 1 == numbers.size();
-        good = error == std::errc() && numbers[i] >= (i < 2 ? 0 : 1) &&
-               numbers[i] <= kMostRasterSide && (last ? rest == end : rest != end);
-        good = good && (last || *rest == behind[i]);
-        at = rest + 1;
+    const std::optional<std::array<int, 4>> read = four_numbers<int>(text, ",,x");
+    const std::array<int, 4> numbers = read.value_or(std::array<int, 4>{}); // X, Y, W, H
+    bool good = read.has_value();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        good = good && numbers[i] >= (i < 2 ? 0 : 1) && numbers[i] <= kMostRasterSide;
     }
     if (!good) {
         throw InputError("--crop is '" + text +
@@ -151,21 +162,10 @@ PixelBox crop_of(const std::string& text) {
 }
 
 Foveation foveation_of(const std::string& text) {
-    std::array<double, 4> numbers{}; // X, Y, FOVEA, PERIPHERY
-    const std::string behind = ",::";
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    bool good = true;
-    for (std::size_t i = 0; i < numbers.size() && good; ++i) {
-        const auto [rest, error] = std::from_chars(at, end, numbers[i]);
-        const bool last = i + 1 == numbers.size();
-        good = error == std::errc() && (last ? rest == end : rest != end);
-        good = good && (last || *rest == behind[i]);
-        at = rest + 1;
-    }
-    const auto [x, y, fovea, periphery] = numbers;
+    const std::optional<std::array<double, 4>> read = four_numbers<double>(text, ",::");
+    const auto [x, y, fovea, periphery] = read.value_or(std::array<double, 4>{});
     // Phrased so that NaN fails.
-    if (!(good && x >= 0 && x <= 1 && y >= 0 && y <= 1 && fovea > 0 && fovea <= periphery &&
+    if (!(read && x >= 0 && x <= 1 && y >= 0 && y <= 1 && fovea > 0 && fovea <= periphery &&
           periphery <= 90)) {
         throw InputError("--foveation is '" + text +
                          "', but must be X,Y:FOVEA:PERIPHERY: the point looked at in shares 0 .. 1 "
