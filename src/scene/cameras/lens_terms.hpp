@@ -27,7 +27,7 @@ Lens open_cv_lens(const std::vector<double>& terms);
 Lens fisheye_lens(const std::vector<double>& terms);
 
 /// The lens that terms_of() describes; none for a kind or a number of terms that it never says.
-std::optional<Lens> lens_of(const LensTerms& terms);
+std::optional<Lens> lens_of(const LensTerms& lens);
 
 /// How far the lens moves the corner of its image that is farthest from the principal point, px; 0
 /// without distortion. Not a number where the lens has no value there.
