@@ -84,9 +84,13 @@ Cycle Process::Alarm::own_date() const {
     return date > latency ? date - latency : 0;
 }
 
-bool Process::Alarm::proven() const {
-    return room ? !fifo->full() || fifo->room_horizon(kProofDepth) > date
-                : fifo->horizon(kProofDepth) > date;
+bool Process::Alarm::proven(Cycle bound) const {
+    return room ? !fifo->full() || bound + fifo->release_latency() > date
+                : fifo->horizon_after(bound) > date;
+}
+
+std::size_t& Process::Alarm::place() const {
+    return room ? fifo->room_alarm_ : fifo->item_alarm_;
 }
 
 Process& Process::Alarm::asker() const {
@@ -103,13 +107,13 @@ void Process::set_room_alarm(FifoBase& fifo, Cycle date) {
 
 void Process::set_alarm(const Alarm& alarm) {
     alarm_ = std::min(alarm_, alarm.own_date());
-    for (Alarm& known : alarms_) {
-        if (known.fifo == alarm.fifo && known.room == alarm.room) {
-            known.date = alarm.date;
-            return;
-        }
+    std::size_t& place = alarm.place();
+    if (place == FifoBase::kNoAlarm) {
+        place = alarms_.size();
+        alarms_.push_back(alarm);
+    } else {
+        alarms_[place].date = alarm.date;
     }
-    alarms_.push_back(alarm);
 }
 
 void Process::pass_alarm(Cycle before, const Cycle* counter) {
@@ -130,12 +134,16 @@ void Process::pass_alarm(Cycle before, const Cycle* counter) {
 void Process::ring_alarms() {
     std::size_t kept = 0;
     alarm_ = no_alarm();
+    Cycle own = bound(kProofDepth);
     for (std::size_t i = 0; i < alarms_.size(); ++i) {
         const Alarm alarm = alarms_[i];
-        if (alarm.proven()) {
+        if (alarm.proven(own)) {
+            alarm.place() = FifoBase::kNoAlarm;
             alarm.asker().wake();
+            own = bound(kProofDepth); // who is awake may have moved
         } else {
             alarm_ = std::min(alarm_, alarm.own_date());
+            alarm.place() = kept;
             alarms_[kept++] = alarm;
         }
     }
@@ -166,10 +174,7 @@ void Process::block_on_room(FifoBase& fifo) {
     room_ = nullptr;
 }
 
-Cycle Process::bound(int depth) const {
-    if (depth == 0 || asking_ || !blocked()) {
-        return local_;
-    }
+Cycle Process::blocked_bound(int depth) const {
     if (room_ != nullptr) {
         const Process* reader = room_->reader();
         if (!room_->full()) {
@@ -180,11 +185,22 @@ Cycle Process::bound(int depth) const {
                    : std::max(local_, reader->bound(depth - 1) + room_->release_latency());
     }
     Cycle earliest = limit_;
+    const Process* writer = nullptr; // rings of one often lie beside each other
+    Cycle bound = 0;
     for (std::size_t i = 0; i < input_count_ && earliest > local_; ++i) {
         const FifoBase& fifo = *inputs_[i];
-        earliest = std::min(earliest, fifo.empty() ? fifo.horizon(depth - 1) : fifo.head_date());
+        if (!fifo.empty()) {
+            earliest = std::min(earliest, fifo.head_date());
+            continue;
+        }
+        if (fifo.writer() != writer || i == 0) {
+            writer = fifo.writer();
+            bound = writer == nullptr ? 0 : writer->bound(depth - 1);
+        }
+        earliest = std::min(earliest, writer == nullptr ? 0 : fifo.horizon_after(bound));
     }
-    return std::max(local_, earliest);
+    proven_bound_ = std::max(local_, earliest);
+    return proven_bound_;
 }
 
 // Reads of cycle t may be decided as late as half a cycle after t, so they are certain at t + 1.
@@ -221,9 +237,23 @@ Cycle Process::quiet_until(FifoBase& input, Cycle date) const {
         return input.horizon(kProofDepth);
     }
     if (input.quiet_until_ <= date) {
-        input.quiet_until_ = std::max(input.quiet_until_, input.horizon(kProofDepth));
+        input.quiet_until_ = std::max(input.quiet_until_, input.horizon_beyond(date, kProofDepth));
     }
     return input.quiet_until_;
+}
+
+// A proof for one ring is that for its neighbours of the same writer.
+void Process::set_alarms(FifoBase* const* inputs, std::size_t count, Cycle date) {
+    const FifoBase* asked = nullptr;
+    for (std::size_t i = 0; i < count; ++i) {
+        FifoBase& input = *inputs[i];
+        if (input.empty() && input.writer() != nullptr &&
+            (asked == nullptr || input.writer() != asked->writer() ||
+             input.horizon_after(0) != asked->horizon_after(0))) {
+            input.writer()->set_alarm(input, date);
+            asked = &input;
+        }
+    }
 }
 
 Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit) {
@@ -250,11 +280,7 @@ Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle fr
                 (known != kNever && sc_core::sc_time_stamp() >= clock_->half_after(known))) {
                 return known;
             }
-            for (std::size_t i = 0; i < count; ++i) {
-                if (inputs[i]->empty() && inputs[i]->writer() != nullptr) {
-                    inputs[i]->writer()->set_alarm(*inputs[i], known);
-                }
-            }
+            set_alarms(inputs, count, known);
         }
         for (std::size_t i = 0; i < count; ++i) {
             inputs[i]->connect_reader(*this);

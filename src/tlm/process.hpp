@@ -131,7 +131,14 @@ public:
 
     /// A lower bound of the date at which this process can act again, derived from up to `depth`
     /// blocked predecessors. It never falls.
-    Cycle bound(int depth) const;
+    Cycle bound(int depth) const {
+        return depth == 0 || asking_ || !blocked() ? local_ : blocked_bound(depth);
+    }
+    /// bound(), or an earlier answer of it if that lies beyond `date`, too: many ask about the same
+    /// process.
+    Cycle bound_beyond(Cycle date, int depth) const {
+        return proven_bound_ > date ? proven_bound_ : bound(depth);
+    }
 
     // For FifoBase: blocking on one ring, and the wake-up of whoever is blocked.
     void block_on_item(FifoBase& fifo);
@@ -164,8 +171,10 @@ public:
     void set_room_alarm(FifoBase& fifo, Cycle date);
 
 private:
+    Cycle blocked_bound(int depth) const;
     bool arrived_after_asking(FifoBase& input);
     Cycle quiet_until(FifoBase& input, Cycle date) const;
+    static void set_alarms(FifoBase* const* inputs, std::size_t count, Cycle date);
     /// Date beyond which advance_to() has more to do, without alarms: strict processes sleep to
     /// each date.
     Cycle no_alarm() const { return strict_ ? 0 : step_end_; }
@@ -194,15 +203,18 @@ private:
     std::size_t input_count_ = 0;
     Cycle limit_ = kNever;
     FifoBase* room_ = nullptr;
-    bool asking_ = false; // blocked in gains_room(): may act again at its own date
+    bool asking_ = false;            // blocked in gains_room(): may act again at its own date
+    mutable Cycle proven_bound_ = 0; // the latest answer of blocked_bound()
     // Others that want to know when the local date passes.
     struct Alarm {
         FifoBase* fifo = nullptr;
         Cycle date = 0;         ///< wanted: proof that nothing dated <= this is still to come
         bool room = false;      ///< the writer asks for a free cell, else the reader for an item
         Cycle own_date() const; ///< the local date from which the proof may exist
-        bool proven() const;
+        /// True if the proof exists where this process cannot act before `bound`.
+        bool proven(Cycle bound) const;
         Process& asker() const;
+        std::size_t& place() const; ///< where the ring keeps that of its alarm in alarms_
     };
     void set_alarm(const Alarm& alarm);
     Cycle alarm_; // the earliest of them, if any
@@ -229,13 +241,22 @@ public:
     void connect_writer(Process& writer) { writer_ = &writer; }
     void connect_reader(Process& reader) { reader_ = &reader; }
     Process* writer() const { return writer_; }
+    /// Proven by Process::arrived(): no item can be read before this date.
+    Cycle quiet_until() const { return quiet_until_; }
     Process* reader() const { return reader_; }
     Cycle forward_latency() const { return forward_latency_; }
     Cycle release_latency() const { return release_latency_; }
     /// First date at which an item that is not in the ring yet could be read.
     Cycle horizon(int depth) const {
-        const Cycle next = writer_ == nullptr ? 0 : writer_->bound(depth) + forward_latency_;
-        return std::min(next, late_from_);
+        return writer_ == nullptr ? 0 : horizon_after(writer_->bound(depth));
+    }
+    /// horizon(), or less if that lies beyond `date`, too.
+    Cycle horizon_beyond(Cycle date, int depth) const {
+        return writer_ == nullptr ? 0 : horizon_after(writer_->bound_beyond(date, depth));
+    }
+    /// horizon() where the writer cannot act before `bound`.
+    Cycle horizon_after(Cycle bound) const {
+        return std::min(bound + forward_latency_, late_from_);
     }
     /// First date at which a cell could be free, of a FIFO that is full as far as the host has
     /// come.
@@ -272,6 +293,9 @@ protected:
     const Cycle* free_ = nullptr;
     Process* writer_ = nullptr;
     Process* reader_ = nullptr;
+    // Places of the alarms of the reader and of the writer in the lists of the other side.
+    static constexpr std::size_t kNoAlarm = ~std::size_t{0};
+    std::size_t item_alarm_ = kNoAlarm, room_alarm_ = kNoAlarm;
 };
 
 inline bool Process::arrived(FifoBase& input) {
@@ -279,7 +303,7 @@ inline bool Process::arrived(FifoBase& input) {
         return false;
     }
     if (!strict_) {
-        const Cycle next = input.empty() ? input.horizon(1) : input.head_date();
+        const Cycle next = input.empty() ? input.horizon_beyond(local_, 1) : input.head_date();
         if (next > local_) {
             input.quiet_until_ = next;
             return false;
