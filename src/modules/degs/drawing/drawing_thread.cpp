@@ -188,10 +188,11 @@ bool DrawingThread::receive() {
     return true;
 }
 
-// One sheet of what the simulation waits for. False if it waits for nothing.
+// One sheet of what the simulation waits for. False if it waits for nothing, or is about to see
+// that it need not.
 bool DrawingThread::serve_demand() {
     const std::uint64_t demand = demand_;
-    if (demand == kNoDemand) {
+    if (demand == kNoDemand || demand == met_) {
         return false;
     }
     const auto number = static_cast<TileNumber>(demand >> 32U);
@@ -201,7 +202,9 @@ bool DrawingThread::serve_demand() {
     Tile& tile = open(number);
     const auto sheet = static_cast<std::uint32_t>(demand);
     const bool met = sheet == kWholeTile ? tile.final.load() : tile.ready.load() > sheet;
-    if (!met) {
+    if (met) {
+        met_ = demand;
+    } else {
         draw_sheet(tile);
     }
     return !met;
@@ -228,8 +231,9 @@ void DrawingThread::rest() {
     std::unique_lock<std::mutex> lock(mutex_);
     thread_sleeps_ = true;
     wanted_.wait(lock, [this] {
-        return stop_ || demand_ != kNoDemand || taken_sheets_.size() >= kWakingSheets ||
-               cleared_tiles_.size() >= kWakingTiles || !joined_.empty();
+        return stop_ || (demand_ != kNoDemand && demand_ != met_) ||
+               taken_sheets_.size() >= kWakingSheets || cleared_tiles_.size() >= kWakingTiles ||
+               !joined_.empty();
     });
     thread_sleeps_ = false;
 }

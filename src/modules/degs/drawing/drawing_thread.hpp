@@ -75,7 +75,7 @@ private:
         std::uint32_t index = 0;
         Sheet* sheet = nullptr;
     };
-    static constexpr std::size_t kAsked = 16; // tiles that are sliced at once, most often
+    static constexpr std::size_t kAsked = 64; // tiles that are sliced at once, most often
 
     // The simulation's side.
     void hand_over_joined();
@@ -114,6 +114,7 @@ private:
     std::vector<Sheet*> free_sheets_;
     TileNumber next_ = 0; // that is drawn ahead
     std::size_t bytes_ = 0, open_tiles_ = 0;
+    std::uint64_t met_ = kNoDemand; // the latest demand that was found met
     std::vector<Sheet*> received_sheets_;
     std::vector<TileNumber> received_tiles_;
 
