@@ -33,6 +33,16 @@ public:
             mask_ = 2 * mask_ + 1;
         }
     }
+    /// `count` of the domains, from `first` on, so that what is said of them there is said of
+    /// these. It may be asked for keys only; these must exist as long.
+    DomainLanes part(std::size_t first, int count) {
+        DomainLanes lanes(0);
+        lanes.size_ = static_cast<std::uint32_t>(count);
+        lanes.keys_ = keys_ + first;
+        lanes.dates_ = dates_ + first;
+        lanes.lengths_ = lengths_ + first;
+        return lanes;
+    }
     /// At least the bits of the highest domain.
     std::uint32_t mask() const { return mask_; }
     std::uint32_t key(int domain) const { return keys_[domain]; }

@@ -7,10 +7,17 @@
 namespace degs {
 
 void DrawnBank::run() {
-    if (spans_ != nullptr) {
-        in_turn_ ? run_cycles<true, true>() : run_cycles<true, false>();
-    } else {
-        in_turn_ ? run_cycles<false, true>() : run_cycles<false, false>();
+    const bool single = spans_ != nullptr;
+    switch (choice_) {
+    case Choice::InTurn:
+        single ? run_cycles<true, Choice::InTurn>() : run_cycles<false, Choice::InTurn>();
+        break;
+    case Choice::Keyed:
+        single ? run_cycles<true, Choice::Keyed>() : run_cycles<false, Choice::Keyed>();
+        break;
+    case Choice::Oldest:
+        run_cycles<false, Choice::Oldest>();
+        break;
     }
     finish();
 }
@@ -26,18 +33,18 @@ inline bool DrawnBank::can_cut() const {
     return left_ > 0 && (free_ != nullptr || (cut_mask() & cut_tile_->domains[cut_].live) == 0);
 }
 
-template <bool single, bool in_turn>
+template <bool single, DrawnBank::Choice choice>
 void DrawnBank::run_cycles() {
     for (bool over = this->over(); !over;) {
         now_ = self_.local();
         if (!terminations_.empty() && terminations_.head_date() <= now_) {
             end_pixels();
         }
-        if (contexts_owed_) {
+        if (contexts_owed_ && now_ >= contexts_from_) {
             see_contexts();
         }
-        accept<single, in_turn>();
-        const bool issued = issue<single, in_turn>() != 0;
+        accept<single, choice>();
+        const bool issued = issue<single, choice>() != 0;
         if (closing_ != 0) {
             finish_tiles();
             over = this->over();
@@ -67,7 +74,7 @@ void DrawnBank::run_cycles() {
 
 // Intake.
 
-template <bool single, bool in_turn>
+template <bool single, DrawnBank::Choice choice>
 inline __attribute__((always_inline)) void DrawnBank::accept() {
     features_full_ = false;
     int spans = spans_per_cycle_;
@@ -75,7 +82,7 @@ inline __attribute__((always_inline)) void DrawnBank::accept() {
         if (left_ <= 0 && (spans-- == 0 || !open_span<single>())) {
             break;
         }
-        if (!cut_segment<in_turn>()) {
+        if (!cut_segment<choice>()) {
             break;
         }
     }
@@ -108,6 +115,10 @@ DrawnBank::earliest_input(BankStream& stream) {
     }
     if (!stream.enterable) {
         return nullptr;
+    }
+    if (stream.inputs.size() == 1) {
+        BankStream::Input& only = stream.inputs.front();
+        return only.turn == stream.entering && arrived(*only.ring) ? &only : nullptr;
     }
     BankStream::Input* source = nullptr;
     Cycle earliest = kNever;
@@ -197,7 +208,7 @@ inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stre
 }
 
 // False if the queue has no room; the segment is then cut later.
-template <bool in_turn>
+template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
     Domain& domain = cut_tile_->domains[cut_];
     const std::uint32_t mask = cut_mask();
@@ -224,12 +235,13 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
             stats_.queue_high_water = size_;
         }
         DomainLanes& lanes = cut_tile_->lanes;
-        if (in_turn) {
+        if (choice == Choice::InTurn) {
             lanes.set_waiting(cut_, true);
         } else {
-            segment->key = next_key_ | static_cast<std::uint32_t>(cut_);
+            const std::uint32_t first = choice == Choice::Oldest ? cut_tile_->first_lane : 0;
+            segment->key = next_key_ | (first + static_cast<std::uint32_t>(cut_));
             lanes.set_key(cut_, std::min(lanes.key(cut_), segment->key)); // an older one stays
-            if (scan_ == DomainScan::Deepest) {
+            if (choice == Choice::Keyed && scan_ == DomainScan::Deepest) {
                 lanes.set_length(cut_, ++domain.length);
             }
             next_key_ += key_step_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "modules/degs/scheduler/domain_lanes.hpp"
@@ -48,10 +49,16 @@ public:
     void run();
 
 private:
-    /// `single`: one tile stream, through DrawnSpans. `in_turn`: see in_turn_. The loop then asks
-    /// for nothing else.
-    template <bool single, bool in_turn>
+    /// What the loop over cycles chooses a domain by.
+    enum class Choice {
+        InTurn, ///< few domains of a tile, round robin
+        Keyed,  ///< keys, in the oldest tile of a stream that has a domain to issue from
+        Oldest  ///< keys, in all tiles at once: each stream has one that may issue
+    };
+    /// `single`: one tile stream, through DrawnSpans. The loop then asks for nothing else.
+    template <bool single, Choice choice>
     void run_cycles();
+    static Choice choice_of(const Parts& parts);
 
     static constexpr std::uint32_t kAllPixels = ~0U;
     static constexpr std::uint64_t kNothing = ~std::uint64_t{0}; // no domain is ready
@@ -71,8 +78,9 @@ private:
     };
     /// The bank's part of a tile in flight.
     struct Tile {
-        Tile(int count, Domain* first) : lanes(count), domains(first) {}
+        Tile(DomainLanes&& own, Domain* first) : lanes(std::move(own)), domains(first) {}
         DomainLanes lanes;
+        std::uint32_t first_lane = 0; // of all_lanes_; for Choice::Oldest alone
         Domain* domains;
         bool started = false;     // may issue
         std::size_t waiting = 0;  // segments
@@ -88,7 +96,7 @@ private:
     };
 
     // Intake.
-    template <bool single, bool in_turn>
+    template <bool single, Choice choice>
     inline void accept();
     template <bool single>
     inline bool open_span();
@@ -100,7 +108,7 @@ private:
     template <class Row>
     inline void start(const BankStream& stream, int row, const Row& drawn);
     [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number);
-    template <bool in_turn>
+    template <Choice choice>
     inline bool cut_segment();
     inline std::uint32_t cut_mask() const;
     inline bool can_cut() const;
@@ -123,21 +131,22 @@ private:
     }
 
     // Issue.
-    template <bool single, bool in_turn>
+    template <bool single, Choice choice>
     inline int issue();
-    template <bool in_turn>
+    template <Choice choice>
     inline int issue_in_order();
-    template <bool in_turn>
+    template <Choice choice>
     inline int issue_from_all();
-    template <bool in_turn>
+    inline int issue_oldest();
+    template <Choice choice>
     inline std::uint64_t find(const Tile& tile, Cycle slot) const;
-    template <bool in_turn>
+    template <Choice choice>
     inline bool find_ready(const BankStream& stream, Cycle slot);
-    template <bool in_turn>
-    std::size_t first_ready(Cycle slot);
-    template <bool in_turn>
+    template <Choice choice>
+    inline std::size_t first_ready(Cycle slot);
+    template <Choice choice>
     inline std::size_t least_ready(Cycle slot);
-    template <bool in_turn>
+    template <Choice choice>
     inline bool issue_one(Tile& tile, int number, Cycle slot);
     [[gnu::noinline]] std::uint32_t tasks_of(const Waiting& segment, std::uint32_t live);
     void drop(const Waiting& segment, std::uint32_t tasks);
@@ -149,7 +158,7 @@ private:
     [[gnu::noinline]] void send_part(Slot cause);
     [[gnu::noinline]] void end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date);
     void end_tile(const Tile& tile);
-    template <bool in_turn>
+    template <Choice choice>
     inline void pop(Tile& tile, int number);
     [[gnu::noinline]] void finish_tiles();
     void finish_tiles(BankStream& stream);
@@ -190,7 +199,7 @@ private:
     Cycle reuse_;
     int contexts_, tiles_in_flight_;
     DomainScan scan_;
-    bool in_turn_;               // RoundRobin, and few domains
+    Choice choice_;
     bool by_task_, sees_pixels_; // see TerminationGrain
     bool fills_;                 // filling a Feature Buffer entry takes time
     Slot width_cause_;           // what limits the issue width
@@ -205,6 +214,9 @@ private:
     std::vector<Domain> domains_; // tile by tile
     std::vector<Tile> tiles_;     // stream by stream, by their turn modulo a power of two
     std::size_t tile_mask_ = 0;
+    // For Choice::Oldest alone: the lanes of all tiles, and the tile of each.
+    DomainLanes all_lanes_{0};
+    std::vector<Tile*> lane_tiles_;
     std::vector<Tile*> started_; // that may issue: stream by stream, oldest first
     std::vector<Stream> own_;    // by stream
     std::size_t issued_stream_ = 0;
@@ -224,13 +236,14 @@ private:
     bool idle_pending_ = false;  // slots without a packet, which count once another one comes
     std::size_t closing_ = 0;    // tiles of which nothing more will be taken
     bool contexts_owed_ = false; // a stream has fewer contexts than it may have
+    Cycle contexts_from_ = 0;    // none of them comes before
     // Tasks taken in, and of the segments dropped.
     std::uint64_t segments_in_ = 0, inside_ = 0, useful_ = 0;
     IssueTrace* trace_;
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
 };
 
-template <bool in_turn>
+template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) void DrawnBank::pop(Tile& tile, int number) {
     Domain& domain = tile.domains[number];
     Waiting& segment = *domain.head;
@@ -245,12 +258,12 @@ inline __attribute__((always_inline)) void DrawnBank::pop(Tile& tile, int number
     const bool last = next == nullptr;
     const Waiting& head = last ? segment : *next;
     domain.end = last ? &domain.head : domain.end;
-    if (in_turn) {
+    if (choice == Choice::InTurn) {
         tile.lanes.set_waiting(number, !last);
         return;
     }
     tile.lanes.set_key(number, last ? DomainLanes::kTop : head.key);
-    if (scan_ == DomainScan::Deepest) {
+    if (choice == Choice::Keyed && scan_ == DomainScan::Deepest) {
         tile.lanes.set_length(number, --domain.length);
     }
 }

@@ -11,24 +11,26 @@ namespace degs {
 
 // Issue. Returns the number of segments issued.
 
-template <bool single, bool in_turn>
+template <bool single, DrawnBank::Choice choice>
 inline __attribute__((always_inline)) int DrawnBank::issue() {
     no_room_ = false;
     if (issuable_ == 0) {
         width_limited_ = false;
         return 0;
     }
-    const int issued =
-        single || single_stream_ ? issue_in_order<in_turn>() : issue_from_all<in_turn>();
+    const int issued = choice == Choice::Oldest   ? issue_oldest()
+                       : single || single_stream_ ? issue_in_order<choice>()
+                                                  : issue_from_all<choice>();
     width_limited_ = issued == issue_width_;
     return issued;
 }
 
 // A domain of the tile that may execute at `slot`, chosen by the scan rule: its number below what
 // makes one of two domains go first; kNothing if there is none.
-template <bool in_turn>
+template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) std::uint64_t DrawnBank::find(const Tile& tile,
                                                                     Cycle slot) const {
+    constexpr bool in_turn = choice == Choice::InTurn;
     if (!in_turn && scan_ == DomainScan::Deepest) {
         return tile.lanes.longest(slot);
     }
@@ -40,7 +42,7 @@ inline __attribute__((always_inline)) std::uint64_t DrawnBank::find(const Tile& 
 }
 
 // For a single stream; see IssueBank::issue_segments().
-template <bool in_turn>
+template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) int DrawnBank::issue_in_order() {
     Tile* const* const first = started_.data();
     Tile* const* const end = first + started_.size();
@@ -49,13 +51,13 @@ inline __attribute__((always_inline)) int DrawnBank::issue_in_order() {
     int issued = 0;
     while (place != end) {
         Tile& tile = **place;
-        const std::uint64_t found = tile.waiting == 0 ? kNothing : find<in_turn>(tile, slot);
+        const std::uint64_t found = tile.waiting == 0 ? kNothing : find<choice>(tile, slot);
         if (found == kNothing) {
             ++place;
             continue;
         }
         const auto number = static_cast<int>(found & tile.lanes.mask());
-        if (!issue_one<in_turn>(tile, number, slot)) {
+        if (!issue_one<choice>(tile, number, slot)) {
             break;
         }
         tile.cursor = after(number);
@@ -72,7 +74,7 @@ inline __attribute__((always_inline)) int DrawnBank::issue_in_order() {
 
 // Looks for a domain of the stream that may issue, in its oldest tile that has one. False if there
 // is none.
-template <bool in_turn>
+template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) bool DrawnBank::find_ready(const BankStream& stream,
                                                                  Cycle slot) {
     Stream& ready = own_[stream.index];
@@ -85,7 +87,7 @@ inline __attribute__((always_inline)) bool DrawnBank::find_ready(const BankStrea
         if (tile.waiting == 0) {
             continue;
         }
-        const std::uint64_t rank = find<in_turn>(tile, slot);
+        const std::uint64_t rank = find<choice>(tile, slot);
         if (rank != kNothing) {
             ready.tile = &tile;
             ready.rank = rank;
@@ -97,12 +99,12 @@ inline __attribute__((always_inline)) bool DrawnBank::find_ready(const BankStrea
 
 // The next stream that has a ready domain, that which issued last at the end; if there is none,
 // their number.
-template <bool in_turn>
-std::size_t DrawnBank::first_ready(Cycle slot) {
+template <DrawnBank::Choice choice>
+inline __attribute__((always_inline)) std::size_t DrawnBank::first_ready(Cycle slot) {
     std::size_t stream = issued_stream_;
     do {
         stream = streams_[stream].next->index;
-        if (find_ready<in_turn>(streams_[stream], slot)) {
+        if (find_ready<choice>(streams_[stream], slot)) {
             return stream;
         }
     } while (stream != issued_stream_);
@@ -110,12 +112,12 @@ std::size_t DrawnBank::first_ready(Cycle slot) {
 }
 
 // The stream whose ready domain goes first; if there is none, their number.
-template <bool in_turn>
+template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) std::size_t DrawnBank::least_ready(Cycle slot) {
     std::size_t chosen = streams_.size();
     std::uint64_t least = kNothing;
     for (const BankStream& stream : streams_) {
-        find_ready<in_turn>(stream, slot);
+        find_ready<choice>(stream, slot);
         const std::uint64_t rank = own_[stream.index].rank;
         chosen = rank < least ? stream.index : chosen;
         least = std::min(rank, least);
@@ -124,7 +126,7 @@ inline __attribute__((always_inline)) std::size_t DrawnBank::least_ready(Cycle s
 }
 
 // For several streams; see IssueBank::issue_segments().
-template <bool in_turn>
+template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) int DrawnBank::issue_from_all() {
     int issued = 0;
     for (Cycle date = 0; issued < issue_width_; ++issued) {
@@ -135,20 +137,39 @@ inline __attribute__((always_inline)) int DrawnBank::issue_from_all() {
                 ready.rank = kNothing;
             }
         }
-        const std::size_t chosen = in_turn || scan_ == DomainScan::RoundRobin
-                                       ? first_ready<in_turn>(slot)
-                                       : least_ready<in_turn>(slot);
+        const std::size_t chosen = choice == Choice::InTurn || scan_ == DomainScan::RoundRobin
+                                       ? first_ready<choice>(slot)
+                                       : least_ready<choice>(slot);
         if (chosen == streams_.size()) {
             break;
         }
         Stream& ready = own_[chosen];
         const auto number = static_cast<int>(ready.rank & ready.tile->lanes.mask());
-        if (!issue_one<in_turn>(*ready.tile, number, slot)) {
+        if (!issue_one<choice>(*ready.tile, number, slot)) {
             break;
         }
         ready.tile->cursor = after(number);
         ready.rank = kNothing;
         issued_stream_ = chosen;
+    }
+    return issued;
+}
+
+// For several streams each of which issues from one tile at most.
+inline __attribute__((always_inline)) int DrawnBank::issue_oldest() {
+    int issued = 0;
+    for (; issued < issue_width_; ++issued) {
+        const Cycle slot = packet_.next_execution(now_);
+        const std::uint32_t found = all_lanes_.least(slot);
+        if (found >= DomainLanes::kTop) {
+            break;
+        }
+        const std::uint32_t lane = found & all_lanes_.mask();
+        Tile& tile = *lane_tiles_[lane];
+        const auto number = static_cast<int>(lane - tile.first_lane);
+        if (!issue_one<Choice::Oldest>(tile, number, slot)) {
+            break;
+        }
     }
     return issued;
 }
@@ -185,7 +206,7 @@ private:
 };
 
 // False if the Packing Buffer has no room.
-template <bool in_turn>
+template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) bool DrawnBank::issue_one(Tile& tile, int number,
                                                                 Cycle slot) {
     Domain& domain = tile.domains[number];
@@ -217,7 +238,7 @@ inline __attribute__((always_inline)) bool DrawnBank::issue_one(Tile& tile, int 
         drop(segment, segment.mask ^ tasks);
     }
     features_.release(segment.feature, last);
-    pop<in_turn>(tile, number);
+    pop<choice>(tile, number);
     return true;
 }
 

@@ -31,6 +31,19 @@ int domains_of(const DrawnBank::Parts& parts) {
 
 } // namespace
 
+// One of several streams takes in no tile without a context, so that all that waits may be issued
+// if each has one.
+DrawnBank::Choice DrawnBank::choice_of(const Parts& parts) {
+    if (parts.config.scan == DomainScan::RoundRobin &&
+        domains_of(parts) <= DomainLanes::kMostInTurn) {
+        return Choice::InTurn;
+    }
+    return parts.config.scan == DomainScan::Oldest && parts.streams.size() != 1 &&
+                   parts.contexts == 1
+               ? Choice::Oldest
+               : Choice::Keyed;
+}
+
 bool DrawnBank::can_run(const Parts& parts) {
     return parts.packing.counts() && parts.config.scoreboard && parts.config.select_cycles == 0 &&
            parts.config.queue_depth <= kMostSegments &&
@@ -46,8 +59,7 @@ DrawnBank::DrawnBank(const Parts& parts, DrawnSpans* spans)
       segment_length_(config_.segment_length), segments_per_cycle_(config_.segments_per_cycle),
       spans_per_cycle_(parts.spans_per_cycle), issue_width_(config_.issue_width),
       reuse_(config_.reuse_cycles), contexts_(parts.contexts),
-      tiles_in_flight_(parts.tiles_in_flight), scan_(config_.scan),
-      in_turn_(scan_ == DomainScan::RoundRobin && domain_count_ <= DomainLanes::kMostInTurn),
+      tiles_in_flight_(parts.tiles_in_flight), scan_(config_.scan), choice_(choice_of(parts)),
       by_task_(config_.termination == TerminationGrain::Task),
       sees_pixels_(config_.termination != TerminationGrain::Segment),
       fills_(config_.fill.cycles != 0), width_cause_(parts.width_cause), pool_(config_.queue_depth),
@@ -64,10 +76,22 @@ DrawnBank::DrawnBank(const Parts& parts, DrawnSpans* spans)
     for (Domain& domain : domains_) {
         domain.end = &domain.head;
     }
-    for (std::size_t i = 0; i < tiles; ++i) {
-        tiles_.emplace_back(domain_count_, &domains_[i * domain_count_]);
+    tiles_.reserve(tiles);
+    if (choice_ == Choice::Oldest) {
+        all_lanes_ = DomainLanes(static_cast<int>(domains_.size()));
     }
-    key_step_ = tiles_.front().lanes.mask() + 1;
+    for (std::size_t i = 0; i < tiles; ++i) {
+        const std::size_t first = i * domain_count_;
+        const bool shared = choice_ == Choice::Oldest;
+        tiles_.emplace_back(shared ? all_lanes_.part(first, domain_count_)
+                                   : DomainLanes(domain_count_),
+                            &domains_[first]);
+        if (shared) {
+            tiles_.back().first_lane = static_cast<std::uint32_t>(first);
+            lane_tiles_.insert(lane_tiles_.end(), domain_count_, &tiles_.back());
+        }
+    }
+    key_step_ = (choice_ == Choice::Oldest ? all_lanes_ : tiles_.front().lanes).mask() + 1;
     watched_.reserve(streams_.size() * (streams_.front().inputs.size() + 1));
 }
 
@@ -140,10 +164,10 @@ void DrawnBank::end_pixels(const Termination& message) {
         features_.release(domain.head->feature, now_);
         drop(*domain.head, domain.head->mask);
         stats_.segments_dropped++;
-        if (in_turn_) {
-            pop<true>(tile, number);
+        if (choice_ == Choice::InTurn) {
+            pop<Choice::InTurn>(tile, number);
         } else {
-            pop<false>(tile, number);
+            pop<Choice::Keyed>(tile, number);
         }
     }
 }
@@ -157,6 +181,7 @@ void DrawnBank::drop(const Waiting& segment, std::uint32_t tasks) {
 // A context comes back only after this bank, too, has ended the tile that holds it.
 void DrawnBank::see_contexts() {
     contexts_owed_ = false;
+    contexts_from_ = kNever;
     bool gained = false;
     for (BankStream& stream : streams_) {
         while (owes_contexts(stream) && self_.arrived(*stream.contexts_freed)) {
@@ -164,7 +189,10 @@ void DrawnBank::see_contexts() {
             ++stream.startable;
             gained = true;
         }
-        contexts_owed_ = contexts_owed_ || owes_contexts(stream);
+        if (owes_contexts(stream)) {
+            contexts_owed_ = true;
+            contexts_from_ = std::min(contexts_from_, stream.contexts_freed->quiet_until());
+        }
     }
     if (gained) {
         list_started();
@@ -248,6 +276,7 @@ void DrawnBank::finish_tiles(BankStream& stream) {
         ++stream.oldest;
         --closing_;
         contexts_owed_ = true;
+        contexts_from_ = 0;
     }
 }
 
@@ -301,11 +330,15 @@ Slot DrawnBank::idle_cause() const {
 // kNever if none waits.
 Cycle DrawnBank::next_ready() const {
     const Cycle slot = packet_.next_execution(now_);
+    if (choice_ == Choice::Oldest) {
+        return all_lanes_.until_next(slot);
+    }
     Cycle earliest = kNever;
     for (const Tile* const tile : started_) {
         if (tile->waiting != 0) {
-            earliest = std::min(earliest, in_turn_ ? tile->lanes.until_next_in_turn(slot)
-                                                   : tile->lanes.until_next(slot));
+            earliest =
+                std::min(earliest, choice_ == Choice::InTurn ? tile->lanes.until_next_in_turn(slot)
+                                                             : tile->lanes.until_next(slot));
         }
     }
     return earliest;
