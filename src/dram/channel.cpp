@@ -75,9 +75,8 @@ Channel::Channel(const Timing& timing, const RuleTable& rules, const ControllerC
       bus_ck_(timing.command_buses == 1 ? static_cast<Ck>(timing.command_ck) : 0),
       posted_writes_(config.posted_writes),
       auto_precharge_(page_policies()[config.page_policy].auto_precharge),
-      read_latency_(static_cast<std::uint16_t>(timing.read_latency())),
-      write_latency_(static_cast<std::uint16_t>(timing.write_latency())),
-      state_{0, Banks(rules), Queues(config), Refresher(timing, config, phase)},
+      read_latency_(timing.read_latency()), state_{0, Banks(rules), Queues(config),
+                                                   Refresher(timing, config, phase)},
       chooser_(config.policies[config.scheduler]) {}
 
 void Channel::run(Ck until, Outcome& outcome) {
@@ -248,7 +247,7 @@ void Channel::answer(const Access& access, Outcome& outcome) const {
     if (!access.write) {
         outcome.answer(access.id, state_.clock + read_latency_);
     } else if (!posted_writes_) {
-        outcome.answer(access.id, state_.clock + write_latency_);
+        outcome.answer(access.id, state_.clock + timing_->write_latency());
     }
 }
 

@@ -136,7 +136,7 @@ private:
     Ck bus_ck_; // that a command keeps all others off the bus
     bool posted_writes_;
     bool auto_precharge_;
-    std::uint16_t read_latency_, write_latency_; // of the timing: CK, from a command to its data
+    int read_latency_; // CK, of the timing, which would divide for every answer
     ChannelState state_;
     Chooser chooser_;
     Stats stats_;

@@ -28,7 +28,7 @@ std::vector<dram::Ck> run_out(dram::Channel& channel) {
     return plain(outcome);
 }
 
-/// The same by single steps, each of which must come at the date that was announced.
+/// Runs a channel by single steps, each of which must come at the date that was announced.
 std::vector<dram::Ck> step_out(dram::Channel& channel) {
     dram::Outcome outcome;
     while (!channel.idle()) {
