@@ -75,22 +75,34 @@ Channel::Channel(const Timing& timing, const RuleTable& rules, const ControllerC
       bus_ck_(timing.command_buses == 1 ? static_cast<Ck>(timing.command_ck) : 0),
       posted_writes_(config.posted_writes),
       auto_precharge_(page_policies()[config.page_policy].auto_precharge),
-      state_{0, Banks(rules), Queues(config), Refresher(timing, config, phase)},
+      read_latency_(timing.read_latency()), state_{0, Banks(rules), Queues(config),
+                                                   Refresher(timing, config, phase)},
       chooser_(config.policies[config.scheduler]) {}
 
 void Channel::run(Ck until, Outcome& outcome) {
     for (;;) {
-        const Chooser::Choice& next = choice();
+        const Ck command = choice().date;
         const Ck admission = next_admission();
-        if (std::min(admission, next.date) > until) {
+        if (std::min(admission, command) > until) {
             return;
         }
-        // An access may send its first command in the CK in which it comes.
-        if (admission <= next.date) {
-            admit(admission, outcome);
-        } else {
-            perform(outcome);
-        }
+        proceed(command, admission, outcome);
+    }
+}
+
+Ck Channel::step(Outcome& outcome) {
+    const Ck command = choice().date;
+    const Ck admission = next_admission();
+    proceed(command, admission, outcome);
+    return std::min(command, admission);
+}
+
+// An access may send its first command in the CK in which it comes.
+inline void Channel::proceed(Ck command, Ck admission, Outcome& outcome) {
+    if (admission <= command) {
+        admit(admission, outcome);
+    } else {
+        perform(outcome);
     }
 }
 
@@ -100,11 +112,13 @@ void Channel::admit(Ck date, Outcome& outcome) {
         const Access access = state_.queues.take_write();
         outcome.admitted.push_back(access.id);
         if (posted_writes_) {
-            outcome.answers.push_back({access.id, date + 1});
+            outcome.answer(access.id, date + 1);
         }
-        if (const auto shared = posted_writes_ ? state_.queues.merge(access) : std::nullopt) {
+        const std::uint8_t same =
+            posted_writes_ ? state_.queues.write_to_merge(access) : Queue::kNone;
+        if (same != Queue::kNone) {
             ++stats_.merged;
-            stats_.merged_bursts += *shared;
+            stats_.merged_bursts += state_.queues.merge(same, access);
             continue;
         }
         state_.queues.enqueue_write(access);
@@ -118,7 +132,7 @@ void Channel::admit(Ck date, Outcome& outcome) {
         if (access.after_write && state_.queues.covered(access)) {
             ++stats_.forwarded;
             stats_.forwarded_bursts += bursts_of(access.bursts);
-            outcome.answers.push_back({access.id, date + 1});
+            outcome.answer(access.id, date + 1);
             continue;
         }
         state_.queues.enqueue_read(access);
@@ -136,7 +150,8 @@ void Channel::begin_direction() {
 }
 
 void Channel::perform(Outcome& outcome) {
-    const Chooser::Choice choice = this->choice();
+    // Not a copy, for the reason that Outcome::answer() gives.
+    const Chooser::Choice& choice = this->choice();
     chooser_.drop();
     state_.clock = choice.date;
     if (choice.start_refresh) {
@@ -230,9 +245,9 @@ void Channel::column(const Chooser::Choice& choice, Outcome& outcome) {
 
 void Channel::answer(const Access& access, Outcome& outcome) const {
     if (!access.write) {
-        outcome.answers.push_back({access.id, state_.clock + timing_->read_latency()});
+        outcome.answer(access.id, state_.clock + read_latency_);
     } else if (!posted_writes_) {
-        outcome.answers.push_back({access.id, state_.clock + timing_->write_latency()});
+        outcome.answer(access.id, state_.clock + timing_->write_latency());
     }
 }
 

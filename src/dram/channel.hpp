@@ -34,6 +34,13 @@ struct Answer {
 struct Outcome {
     std::vector<Answer> answers;         ///< in no order of dates
     std::vector<std::uint32_t> admitted; ///< ids of accesses that have entered a queue
+
+    /// Written in place: a host is slow to copy as one word what it has just written as several.
+    void answer(std::uint32_t id, Ck date) {
+        Answer& answer = answers.emplace_back();
+        answer.id = id;
+        answer.date = date;
+    }
 };
 
 /// One channel with its controller, as plain arithmetic without ticks and events. Work is
@@ -82,6 +89,9 @@ public:
     /// An access of this kind that came now would get into its queue at once.
     bool welcomes(Queues::Kind kind) const { return state_.queues.welcomes(kind); }
     void run(Ck until, Outcome& outcome);
+    /// Does the one thing that happens next, an admission or a command, and returns its date. There
+    /// must be one: next_date() is not kNoDate.
+    Ck step(Outcome& outcome);
     /// The earliest date at which something happens if nothing more comes.
     Ck next_date() { return std::min(choice().date, next_admission()); }
     /// No access that waits for room in a queue, or for its date, gets in before this.
@@ -106,6 +116,7 @@ public:
 private:
     const Chooser::Choice& choice() { return chooser_.choose(state_); }
     Ck next_admission() const { return std::max(state_.queues.next_admission(), state_.clock); }
+    inline void proceed(Ck command, Ck admission, Outcome& outcome);
     void admit(Ck date, Outcome& outcome);
     void turn() {
         if (state_.queues.turn()) {
@@ -125,6 +136,7 @@ private:
     Ck bus_ck_; // that a command keeps all others off the bus
     bool posted_writes_;
     bool auto_precharge_;
+    int read_latency_; // CK, of the timing, which would divide for every answer
     ChannelState state_;
     Chooser chooser_;
     Stats stats_;

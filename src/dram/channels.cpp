@@ -179,19 +179,23 @@ std::vector<Ck> Channels::predict(Ck known) {
     for (std::size_t c = 0; c < size(); ++c) {
         if (asked_[c] != 0) {
             run_channel(c, known); // may answer some already
-            futures_[c].follow(channels_[c], known);
-            predict_channel(c);
+            predict_channel(c, known);
         }
     }
     first_ticket_ = (first_ticket_ + predictions_.size()) & ~kPredicted;
     return std::exchange(predictions_, {});
 }
 
-void Channels::predict_channel(std::size_t channel) {
+// A write that finds room is answered by the channel itself, and needs no future.
+void Channels::predict_channel(std::size_t channel, Ck known) {
+    Future& future = futures_[channel];
+    if (asked_[channel] != 0) {
+        future.follow(channels_[channel], known);
+    }
+    outcome_.admitted.clear();
     while (asked_[channel] != 0) {
         outcome_.answers.clear();
-        outcome_.admitted.clear();
-        futures_[channel].step(outcome_);
+        future.step(outcome_);
         for (const Answer& answer : outcome_.answers) {
             take_prediction(channel, answer);
         }

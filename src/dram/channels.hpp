@@ -97,7 +97,7 @@ private:
     void run_channel(std::size_t channel, Ck until);
     Ck channel_due(Channel& channel) const;
     Ck data_latency() const;
-    void predict_channel(std::size_t channel);
+    void predict_channel(std::size_t channel, Ck known);
     void take_prediction(std::size_t channel, const Answer& answer);
 
     Timing timing_;

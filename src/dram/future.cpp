@@ -34,9 +34,11 @@ void Future::follow(const Channel& channel, Ck known) {
 }
 
 void Future::step(Outcome& outcome) {
-    until_ = std::max(until_, copy_->next_date());
     const std::size_t before = outcome.admitted.size();
-    copy_->run(until_, outcome);
+    until_ = std::max(until_, copy_->step(outcome));
+    if (std::find(welcome_.begin(), welcome_.end(), kNoDate) == welcome_.end()) {
+        return;
+    }
     const bool admitted = outcome.admitted.size() != before;
     for (const Queues::Kind kind : {Queues::kWrite, Queues::kUrgentRead, Queues::kRead}) {
         // An ordinary read may have taken room that an urgent one would have had before it.

@@ -20,13 +20,13 @@ public:
     bool holds() const { return holds_; }
     /// Copies the channel, which has run up to `known`, unless the copy holds.
     void follow(const Channel& channel, Ck known);
-    /// Runs to the next date at which something happens. Appends the answers to `outcome`.
+    /// Does what happens next, see Channel::step(). Appends the answers to `outcome`.
     void step(Outcome& outcome);
 
 private:
     std::unique_ptr<Channel> copy_;
     bool holds_ = false;
-    Ck until_ = 0; // everything up to here has been done
+    Ck until_ = 0; // nothing after this has been done
     // The first date from which an access of a kind would have found room in its queue and nobody
     // before it.
     std::array<Ck, Queues::kKinds> welcome_{};

@@ -69,7 +69,13 @@ public:
         const auto slot = static_cast<std::uint8_t>(__builtin_ctzll(free_));
         free_ &= free_ - 1;
         const unsigned bank = access.bank;
-        entries_[slot] = {access, arrivals_++, access.bursts, RowState::Hit, kNone, tail_[bank]};
+        Entry& entry = entries_[slot]; // in place, which is faster than to copy an entry
+        entry.access = access;
+        entry.age = arrivals_++;
+        entry.left = access.bursts;
+        entry.outcome = RowState::Hit;
+        entry.next = kNone;
+        entry.previous = tail_[bank];
         (tail_[bank] == kNone ? head_[bank] : entries_[tail_[bank]].next) = slot;
         tail_[bank] = slot;
         banks_ |= 1U << bank;

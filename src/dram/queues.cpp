@@ -37,11 +37,13 @@ bool Queues::covered(const Access& access) const {
     return slot != Queue::kNone && (access.bursts & ~writes_[slot].access.bursts) == 0;
 }
 
-std::optional<unsigned> Queues::merge(const Access& access) {
-    const std::uint8_t slot = writes_.find(access.bank, access.row, access.block);
-    if (slot == Queue::kNone) {
-        return {};
-    }
+// The write itself is counted, too.
+std::uint8_t Queues::write_to_merge(const Access& access) const {
+    return writes_of_hash_[hash(access)] > 1 ? writes_.find(access.bank, access.row, access.block)
+                                             : Queue::kNone;
+}
+
+unsigned Queues::merge(std::uint8_t slot, const Access& access) {
     const unsigned shared = bursts_of(writes_[slot].left & access.bursts);
     writes_[slot].access.bursts |= access.bursts;
     writes_[slot].left |= access.bursts;

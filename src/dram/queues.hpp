@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <optional>
 
 #include "dram/controller.hpp"
 #include "dram/queue.hpp"
@@ -79,9 +78,12 @@ public:
 
     void enqueue_write(const Access& access) { writes_.push(access); }
     void enqueue_read(const Access& access) { reads_.push(access); }
-    /// Joins a write to one that waits for the same block. Returns how many of its bursts that one
-    /// was to transfer anyway; empty if there is none.
-    std::optional<unsigned> merge(const Access& access);
+    /// The slot of a queued write to the block of this write, which has been taken; kNone if there
+    /// is none.
+    std::uint8_t write_to_merge(const Access& access) const;
+    /// Joins a write to that of write_to_merge(). Returns how many of its bursts that one was to
+    /// transfer anyway.
+    unsigned merge(std::uint8_t slot, const Access& access);
     /// True if a waiting write holds all bytes of this read.
     bool covered(const Access& access) const;
     /// Takes a served access out of the current queue.

@@ -28,7 +28,18 @@ std::vector<dram::Ck> run_out(dram::Channel& channel) {
     return plain(outcome);
 }
 
-void push_some(dram::Channel& channel, std::mt19937& random, dram::Ck& date, unsigned count) {
+/// Runs a channel by single steps, each of which must come at the date that was announced.
+std::vector<dram::Ck> step_out(dram::Channel& channel) {
+    dram::Outcome outcome;
+    while (!channel.idle()) {
+        const dram::Ck next = channel.next_date();
+        EXPECT_EQ(channel.step(outcome), next);
+    }
+    return plain(outcome);
+}
+
+void push_some(dram::Channel& channel, std::mt19937& random, dram::Ck& date, unsigned count,
+               unsigned blocks = 32) {
     for (unsigned i = 0; i < count; ++i) {
         date += below(random, 3);
         dram::Access access;
@@ -36,7 +47,7 @@ void push_some(dram::Channel& channel, std::mt19937& random, dram::Ck& date, uns
         access.id = i;
         access.row = below(random, 5);
         access.bank = static_cast<std::uint8_t>(below(random, 16));
-        access.block = static_cast<std::uint8_t>(below(random, 32));
+        access.block = static_cast<std::uint8_t>(below(random, blocks));
         access.bursts = static_cast<std::uint8_t>(1 + below(random, 3));
         access.write = below(random, 3) == 0;
         channel.push(access);
@@ -73,6 +84,28 @@ TEST(SmallRunLpddr5Copy, AssignedOverAnyOtherItDoesWhatAFreshCopyDoes) {
         }
     }
     EXPECT_EQ(seen, 0U) << "an observer has outlived the assignment";
+}
+
+// Blocks are few, so that writes merge and reads are answered from them.
+TEST(SmallRunLpddr5Copy, DoesStepByStepWhatItDoesInOneRun) {
+    const dram::Config config = test::lpddr5_config("lpddr5-6400x256");
+    const dram::RuleTable rules(config.timing);
+    dram::Channel source(config.timing, rules, config.controller);
+    std::mt19937 random(13);
+    dram::Ck date = 0;
+    for (int round = 0; round < 500; ++round) {
+        push_some(source, random, date, below(random, 50) == 0 ? 300 : below(random, 12), 2);
+        dram::Outcome outcome;
+        source.run(date, outcome);
+        dram::Channel running = source;
+        dram::Channel stepping = source;
+        ASSERT_EQ(step_out(stepping), run_out(running)) << "round " << round;
+        ASSERT_EQ(stepping.stats().commands, running.stats().commands);
+        ASSERT_EQ(stepping.stats().merged_bursts, running.stats().merged_bursts);
+        ASSERT_EQ(stepping.stats().forwarded, running.stats().forwarded);
+    }
+    EXPECT_GT(source.stats().merged, 0U);
+    EXPECT_GT(source.stats().forwarded, 0U);
 }
 
 // Predictions through all channels, with requests from 64 B to 64 KiB: one object predicts all the
