@@ -29,6 +29,8 @@ for source in "$work/own-accelerator"/*.cpp; do
     objects+=("CMakeFiles/$target.dir/$name.o")
 done
 quietly compile cmake --build "$outside" --target "${objects[@]}"
+built=$(find "$outside" -name '*.a')
+[[ ! $built ]] || { echo "the files need libraries only when the program is linked, but these were built:"; echo "$built"; exit 1; }
 if [[ ! ${DEGS_SLOW_TESTS:-} ]]; then
     echo "compiled ${#objects[@]} files outside; DEGS_SLOW_TESTS=1 builds and runs the program, too"
     exit
