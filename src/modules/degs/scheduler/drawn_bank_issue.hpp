@@ -155,25 +155,6 @@ inline __attribute__((always_inline)) int DrawnBank::issue_from_all() {
     return issued;
 }
 
-// For several streams each of which issues from one tile at most.
-inline __attribute__((always_inline)) int DrawnBank::issue_oldest() {
-    int issued = 0;
-    for (; issued < issue_width_; ++issued) {
-        const Cycle slot = packet_.next_execution(now_);
-        const std::uint32_t found = all_lanes_.least(slot);
-        if (found >= DomainLanes::kTop) {
-            break;
-        }
-        const std::uint32_t lane = found & all_lanes_.mask();
-        Tile& tile = *lane_tiles_[lane];
-        const auto number = static_cast<int>(lane - tile.first_lane);
-        if (!issue_one<Choice::Oldest>(tile, number, slot)) {
-            break;
-        }
-    }
-    return issued;
-}
-
 /// Counts tasks. Which of them go into a packet matters only if a pixel ends with one: `ends`.
 template <bool ends>
 class DrawnBank::Sink {
@@ -240,6 +221,25 @@ inline __attribute__((always_inline)) bool DrawnBank::issue_one(Tile& tile, int 
     features_.release(segment.feature, last);
     pop<choice>(tile, number);
     return true;
+}
+
+// For several streams each of which issues from one tile at most.
+inline __attribute__((always_inline)) int DrawnBank::issue_oldest() {
+    int issued = 0;
+    for (; issued < issue_width_; ++issued) {
+        const Cycle slot = packet_.next_execution(now_);
+        const std::uint32_t found = all_lanes_.least(slot);
+        if (found >= DomainLanes::kTop) {
+            break;
+        }
+        const std::uint32_t lane = found & all_lanes_.mask();
+        Tile& tile = *lane_tiles_[lane];
+        const auto number = static_cast<int>(lane - tile.first_lane);
+        if (!issue_one<Choice::Oldest>(tile, number, slot)) {
+            break;
+        }
+    }
+    return issued;
 }
 
 } // namespace degs

@@ -14,9 +14,7 @@ SpanPool::SpanPool(const sc_core::sc_module_name& name, const Config& config, co
                    const RenderJob& job, const Share& share)
     : SpanStage(name, config, job, std::size_t{1} * share.streams * share.lanes,
                 share.streams * reachable(share.index, share.of, share.banks), share.streams),
-      self_(time), share_(share),
-      port_of_row_(ports_of_rows(job.tile_size, share.index, share.of, share.banks)),
-      streams_(share.streams), free_from_(share.units, 0) {
+      self_(time), share_(share), streams_(share.streams), free_from_(share.units, 0) {
     DEGS_HAS_PROCESS(SpanPool);
     SC_THREAD(run);
     self_.show(*this, stats_.busy, share.units);
@@ -25,13 +23,26 @@ SpanPool::SpanPool(const sc_core::sc_module_name& name, const Config& config, co
 void SpanPool::end_of_elaboration() {
     for (auto& port : in) {
         port->connect_reader(self_);
-        lanes_.push_back({&port.ring(), &streams_[lanes_.size() / share_.lanes]});
+        Lane& lane = lanes_.emplace_back();
+        lane.rows = &port.ring();
+        lane.stream = &streams_[(lanes_.size() - 1) / share_.lanes];
     }
     const std::size_t ports = out.size() / streams_.size();
     for (std::size_t i = 0; i < out.size(); ++i) {
         streams_[i / ports].rings.push_back(&out[i].ring());
         out[i]->connect_writer(self_);
     }
+    for (Stream& stream : streams_) {
+        for (const std::size_t port :
+             ports_of_rows(job_.tile_size, share_.index, share_.of, share_.banks)) {
+            stream.ring_of_row.push_back(stream.rings[port]);
+        }
+    }
+    for (Lane& lane : lanes_) {
+        lane.ring_of_row = lane.stream->ring_of_row.data();
+        lane.next = &lane == &lanes_.back() ? &lanes_.front() : &lane + 1;
+    }
+    next_lane_ = &lanes_.front();
     connect_reports(self_);
     watched_.reserve(lanes_.size());
 }
@@ -61,6 +72,55 @@ void SpanPool::run() {
     self_.finish();
 }
 
+// True if the lane had a row whose bank has a place for its Span Vector. Inlined in the hot loop.
+inline __attribute__((always_inline)) bool SpanPool::take_from(Lane& lane) {
+    if (!lane.has_row && !lane.looked_at) {
+        look_at(lane);
+    }
+    if (!lane.has_row) {
+        return false;
+    }
+    if (config_.row_ports.limited() && !has_port(lane)) {
+        ++stats_.row_port_waits;
+        return false;
+    }
+    const RowItem& item = lane.rows->front();
+    DatedFifo<SpanItem>& ring = *lane.ring_of_row[item.row];
+    if (!ring.has_room(self_)) {
+        waiting_ = true;
+        return false;
+    }
+    ring.reserve(self_);
+    ++lane.reads;
+    lane.has_row = false;
+    lane.looked_at = false;
+    const bool covers = solve(item, ring.staged());
+    lane.rows->drop(self_);
+    report(self_, &lane - lanes_.data());
+    if (covers) {
+        ring.put_staged(self_);
+    }
+    return true;
+}
+
+// From the lanes in turn. Returns the number of rows.
+inline __attribute__((always_inline)) int SpanPool::take_for_unit() {
+    int taken = 0;
+    const std::size_t lanes = lanes_.size();
+    for (std::size_t untried = lanes; untried != 0;) { // since the last row
+        Lane& lane = *next_lane_;
+        next_lane_ = lane.next;
+        if (!take_from(lane)) {
+            --untried;
+        } else if (++taken == config_.rows_per_cycle) {
+            break;
+        } else {
+            untried = lanes;
+        }
+    }
+    return taken;
+}
+
 // Every free unit takes up to rows_per_cycle rows.
 void SpanPool::take_rows() {
     const Cycle now = self_.local();
@@ -82,51 +142,6 @@ void SpanPool::take_rows() {
             return;
         }
     }
-}
-
-// From the lanes in turn. Returns the number of rows.
-int SpanPool::take_for_unit() {
-    int taken = 0;
-    std::size_t in_vain = 0; // lanes since the last row
-    while (taken < config_.rows_per_cycle && in_vain < lanes_.size()) {
-        Lane& lane = lanes_[next_lane_];
-        next_lane_ = next_lane_ + 1 == lanes_.size() ? 0 : next_lane_ + 1;
-        const bool took = take_from(lane);
-        taken += took ? 1 : 0;
-        in_vain = took ? 0 : in_vain + 1;
-    }
-    return taken;
-}
-
-// True if the lane had a row whose bank has a place for its Span Vector. Inlined in the hot loop.
-inline __attribute__((always_inline)) bool SpanPool::take_from(Lane& lane) {
-    if (!lane.has_row && !lane.looked_at) {
-        look_at(lane);
-    }
-    if (!lane.has_row) {
-        return false;
-    }
-    if (config_.row_ports.limited() && !has_port(lane)) {
-        ++stats_.row_port_waits;
-        return false;
-    }
-    const RowItem& item = lane.rows->front();
-    DatedFifo<SpanItem>& ring = *lane.stream->rings[port_of_row_[item.row]];
-    if (!ring.has_room(self_)) {
-        waiting_ = true;
-        return false;
-    }
-    ring.reserve(self_);
-    ++lane.reads;
-    lane.has_row = false;
-    lane.looked_at = false;
-    const bool covers = solve(item, ring.staged());
-    lane.rows->drop(self_);
-    report(self_, &lane - lanes_.data());
-    if (covers) {
-        ring.put_staged(self_);
-    }
-    return true;
 }
 
 // A lane does not run ahead of the other lanes of its stream: tiles end in all of them together.

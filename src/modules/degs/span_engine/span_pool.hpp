@@ -29,18 +29,21 @@ public:
 
 private:
     struct Stream {
-        std::vector<DatedFifo<SpanItem>*> rings; // by port
-        std::size_t turn = 0;                    // ends of tiles that have been sent
-        std::size_t ends = 0;                    // lanes that have delivered the next one
-        std::optional<TileNumber> ending;        // the tile whose end has to be sent
-        std::size_t end_port = 0;                // to which port
+        std::vector<DatedFifo<SpanItem>*> rings;       // by port
+        std::vector<DatedFifo<SpanItem>*> ring_of_row; // by row inside the tile
+        std::size_t turn = 0;                          // ends of tiles that have been sent
+        std::size_t ends = 0;                          // lanes that have delivered the next one
+        std::optional<TileNumber> ending;              // the tile whose end has to be sent
+        std::size_t end_port = 0;                      // to which port
     };
     struct Lane {
         DatedFifo<RowItem>* rows = nullptr;
         Stream* stream = nullptr;
-        std::size_t turn = 0;   // ends of tiles that it has delivered
-        Cycle read = 0;         // date of the latest read
-        int reads = 0;          // at that date
+        DatedFifo<SpanItem>* const* ring_of_row = nullptr; // by row inside the tile
+        Lane* next = nullptr;                              // in turn
+        std::size_t turn = 0;                              // ends of tiles that it has delivered
+        Cycle read = 0;                                    // date of the latest read
+        int reads = 0;                                     // at that date
         bool has_row = false;   // the next item is known to be a row that has arrived
         bool looked_at = false; // at this date, and nothing has changed since then
     };
@@ -49,8 +52,8 @@ private:
     void start_of_simulation() override;
     void run();
     void take_rows();
-    int take_for_unit();
-    bool take_from(Lane& lane);
+    inline int take_for_unit();
+    inline bool take_from(Lane& lane);
     void look_at(Lane& lane);
     // What is rare stays out of the loop over cycles, which then keeps more in registers.
     [[gnu::noinline]] void pass_end(Lane& lane);
@@ -60,10 +63,9 @@ private:
 
     Process self_;
     Share share_;
-    std::vector<std::size_t> port_of_row_; // by row inside the tile
     std::vector<Lane> lanes_;
     std::vector<Stream> streams_;
-    std::size_t next_lane_ = 0;    // from which a row is taken next
+    Lane* next_lane_ = nullptr;    // from which a row is taken next
     std::vector<Cycle> free_from_; // by unit
     bool waiting_ = false;         // a row or an end waits for a place in the crossbar
     bool ends_passed_ = false;     // since a unit began to look for rows

@@ -2,6 +2,8 @@
 #include "modules/degs/supply/record_sharing.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace degs {
 
@@ -124,13 +126,19 @@ void RecordSharing::keep(std::uint32_t splat, const Completion& there) {
     if (cache_records_ == 0) {
         return;
     }
-    if (recent_.size() == cache_records_) {
-        places_.erase(recent_.back().key);
-        recent_.pop_back();
-    }
     stats_.cached++;
-    recent_.push_front({key_of(splat), there});
-    places_[key_of(splat)] = recent_.begin();
+    const Record record{key_of(splat), there};
+    if (recent_.size() < cache_records_) {
+        recent_.push_front(record);
+        places_[record.key] = recent_.begin();
+        return;
+    }
+    // In the place of the one that was used least recently, so that nothing is allocated.
+    auto place = places_.extract(recent_.back().key);
+    recent_.splice(recent_.begin(), recent_, std::prev(recent_.end()));
+    recent_.front() = record;
+    place.key() = record.key;
+    places_.insert(std::move(place));
 }
 
 } // namespace degs
