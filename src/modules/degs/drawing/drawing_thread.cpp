@@ -104,8 +104,9 @@ DrawingThread::Sheet& DrawingThread::sheet(TileNumber number, std::uint32_t plac
     if (asked.tile == number && asked.index == index) {
         return *asked.sheet;
     }
-    await(number, index, [this, number, index] {
-        const Tile* drawn = tile(number);
+    const Slot& slot = slots_[number];
+    await(number, index, [&slot, index] {
+        const Tile* drawn = slot.open.load();
         return drawn != nullptr && drawn->ready.load() > index;
     });
     asked = {number, index, tile(number)->sheets[index]};
