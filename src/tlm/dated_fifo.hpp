@@ -92,6 +92,21 @@ public:
     bool has_room(Process& writer) {
         return full() ? writer.gains_room(*this) : room_date() <= writer.local();
     }
+    /// has_room(), and reserve() if there is.
+    bool reserve_now(Process& writer) {
+        if (full()) {
+            if (!writer.gains_room(*this)) {
+                return false;
+            }
+        } else if (room_date() > writer.local()) {
+            return false;
+        }
+        writer_ = &writer;
+        if (tail_->date > writer.local()) {
+            make_room(writer); // the host has too few cells
+        }
+        return true;
+    }
     /// Must not follow put_at() with an answer that has not come yet.
     void put(Process& writer, const T& value) {
         reserve(writer);

@@ -48,6 +48,44 @@ TEST_P(RoomIn, IsExactToTheCycle) {
     EXPECT_EQ(reader.local(), kNever);
 }
 
+// More items than a ring has cells at first, then as many as it has places.
+TEST_P(RoomIn, IsTakenAtOnce) {
+    constexpr int places = 40;
+    ProcessBench bench(GetParam());
+    DatedFifo<int> ring("ring", bench.time, places, 1, 1);
+    Process writer(bench.time);
+    Process reader(bench.time);
+    ring.connect_writer(writer);
+    ring.connect_reader(reader);
+    const Script write("write", [&] {
+        for (int i = 0; i < places; ++i) {
+            ASSERT_TRUE(ring.reserve_now(writer)) << i;
+            ring.staged() = i;
+            ring.put_staged(writer);
+        }
+        EXPECT_EQ(writer.local(), 0U);
+        for (; writer.local() < 51; writer.advance()) {
+            ASSERT_FALSE(ring.reserve_now(writer)) << writer.local();
+        }
+        ASSERT_TRUE(ring.reserve_now(writer));
+        ring.staged() = places;
+        ring.put_staged(writer);
+        EXPECT_EQ(writer.local(), 51U);
+        writer.finish();
+    });
+    const Script read("read", [&] {
+        reader.advance(50);
+        for (int i = 0; i <= places; ++i) {
+            EXPECT_EQ(ring.get(reader), i);
+        }
+        EXPECT_EQ(reader.local(), 52U);
+        reader.finish();
+    });
+    sc_core::sc_start();
+    EXPECT_EQ(writer.local(), kNever);
+    EXPECT_EQ(reader.local(), kNever);
+}
+
 // Two writers that ask for room and an arbiter that asks for items, all of each other: whoever has
 // the earliest date goes on. Either writer's ring holds one item that is read every third cycle.
 TEST_P(RoomIn, WritersAndReadersMayAskEachOther) {

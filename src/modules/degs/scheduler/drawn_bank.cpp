@@ -118,7 +118,8 @@ DrawnBank::earliest_input(BankStream& stream) {
     }
     if (stream.inputs.size() == 1) {
         BankStream::Input& only = stream.inputs.front();
-        return only.turn == stream.entering && arrived(*only.ring) ? &only : nullptr;
+        const bool quiet = only.ring->empty() && now_ < only.ring->quiet_until();
+        return !quiet && only.turn == stream.entering && arrived(*only.ring) ? &only : nullptr;
     }
     BankStream::Input* source = nullptr;
     Cycle earliest = kNever;

@@ -121,8 +121,7 @@ private:
     void list_started();
     // An item that is there needs no proof.
     bool arrived(FifoBase& fifo) const {
-        return fifo.empty() ? now_ >= fifo.quiet_until() && self_.arrived(fifo)
-                            : fifo.head_date() <= now_;
+        return fifo.empty() ? self_.arrived(fifo) : fifo.head_date() <= now_;
     }
     static bool takes(const BankStream& stream, const BankStream::Input& input) {
         return input.turn == stream.entering && stream.enterable;

@@ -27,7 +27,7 @@ public:
         mask_ = size - 1;
     }
     /// A packet that leaves at `written` and executes at `slot`.
-    void pass_packet(Cycle written, Cycle slot) {
+    __attribute__((always_inline)) void pass_packet(Cycle written, Cycle slot) {
         pass(written, slot);
         ready_ = slot + 1;
     }

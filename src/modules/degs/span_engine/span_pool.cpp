@@ -86,11 +86,10 @@ inline __attribute__((always_inline)) bool SpanPool::take_from(Lane& lane) {
     }
     const RowItem& item = lane.rows->front();
     DatedFifo<SpanItem>& ring = *lane.ring_of_row[item.row];
-    if (!ring.has_room(self_)) {
+    if (!ring.reserve_now(self_)) {
         waiting_ = true;
         return false;
     }
-    ring.reserve(self_);
     ++lane.reads;
     lane.has_row = false;
     lane.looked_at = false;
@@ -124,20 +123,19 @@ inline __attribute__((always_inline)) int SpanPool::take_for_unit() {
 // Every free unit takes up to rows_per_cycle rows.
 void SpanPool::take_rows() {
     const Cycle now = self_.local();
-    for (std::size_t unit = 0; unit < free_from_.size(); ++unit) {
-        if (free_from_[unit] > now) {
+    for (auto unit = free_from_.begin(); unit != free_from_.end(); ++unit) {
+        if (*unit > now) {
             continue;
         }
         ends_passed_ = false;
         const std::uint64_t waits_before = stats_.row_port_waits;
         if (take_for_unit() != 0) {
-            free_from_[unit] = now + config_.cycles_per_row;
+            *unit = now + config_.cycles_per_row;
             stats_.busy += config_.cycles_per_row;
         } else if (!ends_passed_) {
             // The other free units find nothing, either, and wait for the same ports.
-            const auto others =
-                std::count_if(free_from_.begin() + std::ptrdiff_t(unit) + 1, free_from_.end(),
-                              [now](Cycle from) { return from <= now; });
+            const auto others = std::count_if(unit + 1, free_from_.end(),
+                                              [now](Cycle from) { return from <= now; });
             stats_.row_port_waits += (stats_.row_port_waits - waits_before) * others;
             return;
         }
@@ -203,10 +201,9 @@ bool SpanPool::has_port(Lane& lane) {
 bool SpanPool::send_end(Stream& stream) {
     for (; stream.end_port < stream.rings.size(); ++stream.end_port) {
         DatedFifo<SpanItem>& ring = *stream.rings[stream.end_port];
-        if (!ring.has_room(self_)) {
+        if (!ring.reserve_now(self_)) {
             return false;
         }
-        ring.reserve(self_);
         SpanItem& end = ring.staged();
         end.tile = *stream.ending;
         end.span.reset();

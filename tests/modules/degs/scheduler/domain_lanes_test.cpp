@@ -95,6 +95,41 @@ TEST_P(DomainLanesOf, ChooseAsALoopDoes) {
     }
 }
 
+// The lanes of two tiles, of which each says what is of its own domains.
+TEST_P(DomainLanesOf, ChooseFromTheirParts) {
+    std::mt19937 random(static_cast<unsigned>(GetParam()));
+    const int count = GetParam();
+    const auto upto = [&](int n) { return static_cast<int>(random() % (n + 1U)); };
+    DomainLanes all(2 * count);
+    DomainLanes parts[] = {all.part(0, count), all.part(count, count)};
+    std::vector<Plain> plain(2 * count);
+    Cycle now = 1000;
+    for (int trial = 0; trial < 2000; ++trial, now += upto(2)) {
+        const int tile = upto(1);
+        if (upto(50) == 0) { // a tile begins
+            parts[tile].set_dates(now);
+            for (int i = 0; i < count; ++i) {
+                parts[tile].set_key(i, DomainLanes::kTop);
+                plain[tile * count + i] = {DomainLanes::kTop, 0, now};
+            }
+        }
+        const int number = upto(count - 1);
+        Plain& domain = plain[tile * count + number];
+        domain.key = 4096U * upto(1000) + tile * count + number;
+        domain.date = now + upto(9);
+        parts[tile].set_key(number, domain.key);
+        parts[tile].set_date(number, domain.date);
+        ASSERT_EQ(parts[tile].key(number), domain.key);
+        const std::uint64_t best = best_of(plain, now, false);
+        if (best == ~std::uint64_t{0}) {
+            ASSERT_GE(all.least(now), DomainLanes::kTop);
+            ASSERT_EQ(all.until_next(now), wait_of(plain, now));
+        } else {
+            ASSERT_EQ(all.least(now), best);
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Counts, DomainLanesOf, ::testing::Values(1, 3, 8, 16, 31, 64, 65, 200));
 
 } // namespace
