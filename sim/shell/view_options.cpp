@@ -16,8 +16,8 @@ CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution) {
         .add_option(
             "--resolution", resolution,
             "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high, as wide "
-            "as the camera's aspect ratio makes them")
-        ->type_name("NAME");
+            "as the camera's aspect ratio makes them; or WIDTHxHEIGHT")
+        ->type_name("SIZE");
 }
 
 CLI::Option* add_config_option(CLI::App& command, std::string& config) {

@@ -46,11 +46,30 @@ std::string in_small_letters(std::string text) {
     return text;
 }
 
+/// The height of a resolution, px; none if its name is not known.
+std::optional<int> known_height(const std::string& name) {
+    for (const Resolution& resolution : kResolutions) {
+        if (in_small_letters(name) == resolution.name) {
+            return resolution.height;
+        }
+    }
+    return {};
+}
+
+/// "720p, 1080p, 2k, 4k, 8k".
+std::string all_names() {
+    std::string names;
+    for (const Resolution& resolution : kResolutions) {
+        names.append(names.empty() ? "" : ", ").append(resolution.name);
+    }
+    return names;
+}
+
 /// The numbers of a text that is nothing but them and the character of `between` behind each.
-template <class Number>
-std::optional<std::array<Number, 4>> four_numbers(const std::string& text,
-                                                  const std::string& between) {
-    std::array<Number, 4> numbers{};
+template <class Number, std::size_t count>
+std::optional<std::array<Number, count>> numbers_of(const std::string& text,
+                                                    const std::string& between) {
+    std::array<Number, count> numbers{};
     const char* at = text.data();
     const char* const end = at + text.size();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -135,19 +154,30 @@ std::vector<std::string> resolution_names() {
 }
 
 int resolution_height(const std::string& name) {
-    std::string allowed;
-    for (const Resolution& resolution : kResolutions) {
-        if (in_small_letters(name) == resolution.name) {
-            return resolution.height;
-        }
-        allowed += std::string(allowed.empty() ? "" : ", ") + resolution.name;
+    if (const std::optional<int> height = known_height(name)) {
+        return *height;
     }
-    throw InputError("The resolution '" + name + "' is not known; allowed are " + allowed +
-                     ", and --width and --height for any other size.");
+    throw InputError("The resolution '" + name + "' is not known; allowed are " + all_names() +
+                     ".");
+}
+
+ImageSize image_size(const std::string& text) {
+    if (const auto sides = numbers_of<int, 2>(in_small_letters(text), "x")) {
+        if ((*sides)[0] < 1 || (*sides)[1] < 1) {
+            throw InputError("The resolution '" + text +
+                             "' is no image; both sides must be at least 1 pixel.");
+        }
+        return {(*sides)[0], (*sides)[1]};
+    }
+    if (const std::optional<int> height = known_height(text)) {
+        return {{}, height};
+    }
+    throw InputError("The resolution '" + text + "' is not known; allowed are " + all_names() +
+                     ", and WIDTHxHEIGHT in pixels, as in 2064x2208.");
 }
 
 PixelBox crop_of(const std::string& text) {
-    const std::optional<std::array<int, 4>> read = four_numbers<int>(text, ",,x");
+    const std::optional<std::array<int, 4>> read = numbers_of<int, 4>(text, ",,x");
     const std::array<int, 4> numbers = read.value_or(std::array<int, 4>{}); // X, Y, W, H
     bool good = read.has_value();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -162,7 +192,7 @@ PixelBox crop_of(const std::string& text) {
 }
 
 Foveation foveation_of(const std::string& text) {
-    const std::optional<std::array<double, 4>> read = four_numbers<double>(text, ",::");
+    const std::optional<std::array<double, 4>> read = numbers_of<double, 4>(text, ",::");
     const auto [x, y, fovea, periphery] = read.value_or(std::array<double, 4>{});
     // Phrased so that NaN fails.
     if (!(read && x >= 0 && x <= 1 && y >= 0 && y <= 1 && fovea > 0 && fovea <= periphery &&
@@ -210,7 +240,7 @@ void check_view(const ViewRequest& request) {
     check_positive("--width", request.width);
     check_positive("--height", request.height);
     if (!request.resolution.empty()) {
-        resolution_height(request.resolution);
+        image_size(request.resolution);
     }
     if (!request.crop.empty()) {
         crop_of(request.crop);
@@ -223,9 +253,9 @@ void check_view(const ViewRequest& request) {
 }
 
 Camera camera_of(const ViewRequest& request, const Scene& scene) {
-    const std::optional<int> height =
-        request.resolution.empty() ? request.height : resolution_height(request.resolution);
-    return resize_and_crop(select_camera(scene, request.camera), request.width, height,
+    const ImageSize size = request.resolution.empty() ? ImageSize{request.width, request.height}
+                                                      : image_size(request.resolution);
+    return resize_and_crop(select_camera(scene, request.camera), size.width, size.height,
                            request.crop);
 }
 

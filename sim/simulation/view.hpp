@@ -13,12 +13,17 @@
 
 namespace degs::sim {
 
+/// Pixels to be had; a side that is not given follows from the other and the camera's aspect ratio.
+struct ImageSize {
+    std::optional<int> width, height;
+};
+
 struct ViewRequest {
     std::string scene;
     std::string camera_file; ///< empty: the scene's own
     int camera = 0;
     std::optional<int> width, height;
-    std::string resolution; ///< a name of resolution_names(), empty: width and height decide
+    std::string resolution; ///< what image_size() reads, empty: width and height decide
     std::string crop;       ///< see crop_of(); empty: all of the view
     std::string workload;   ///< a workload file instead of all of the above; empty: none
 };
@@ -47,6 +52,9 @@ std::vector<std::string> resolution_names();
 /// Image height in pixels: 720, 1080, 1440, 2160, 4320. Capital letters are allowed; InputError
 /// lists the names for any other.
 int resolution_height(const std::string& name);
+/// What a name of resolution_names() or "WIDTHxHEIGHT" says, as in "2064x2208". Throws InputError
+/// for anything else.
+ImageSize image_size(const std::string& text);
 
 constexpr double kMostEyeDistance = 1000; ///< m
 constexpr double kLeastUnitsPerMetre = 1e-6, kMostUnitsPerMetre = 1e6;

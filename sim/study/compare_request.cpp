@@ -304,13 +304,13 @@ std::optional<std::vector<int>> parse_cameras(const std::string& text) {
 std::vector<ImageSize> parse_resolutions(const std::string& text) {
     std::vector<ImageSize> sizes;
     for (const std::string& part : split(text)) {
-        const int height = resolution_height(part);
+        const ImageSize wanted = image_size(part);
         for (const ImageSize& size : sizes) {
-            if (size.height == height) {
+            if (size.width == wanted.width && size.height == wanted.height) {
                 throw InputError("The resolution '" + part + "' is given twice.");
             }
         }
-        sizes.push_back({{}, height});
+        sizes.push_back(wanted);
     }
     return sizes;
 }

@@ -20,10 +20,6 @@ struct NamedConfig {
 };
 
 /// Size of the images: one of the two, or none for the camera's own.
-struct ImageSize {
-    std::optional<int> width, height;
-};
-
 struct CompareRequest {
     std::vector<NamedConfig> configs; ///< the others are compared with the first
     std::vector<std::string> scenes;
@@ -80,7 +76,7 @@ double nearest_plane(const std::vector<NamedConfig>& configs);
 /// twice.
 std::optional<std::vector<int>> parse_cameras(const std::string& text);
 
-/// "1080p,4k". Throws InputError for an unknown name and one given twice.
+/// "1080p,2064x2208", see image_size(). Throws InputError for a mistake and a size given twice.
 std::vector<ImageSize> parse_resolutions(const std::string& text);
 
 /// What --within asks for in commands that run several designs. Throws InputError for a mistake,

@@ -17,11 +17,11 @@ std::string with_commas(const std::string& item) {
     return "^(" + item + ")(,(" + item + "))*$";
 }
 
-/// The names of resolutions in capital and small letters.
+/// Widths and heights, and the names of resolutions in capital and small letters.
 std::string resolution_pattern() {
-    std::string names;
+    std::string names = "[0-9]+[xX][0-9]+";
     for (const std::string& name : resolution_names()) {
-        names += names.empty() ? "" : "|";
+        names += "|";
         for (const char c : name) {
             const auto letter = static_cast<unsigned char>(c);
             const char capital = static_cast<char>(std::toupper(letter));
@@ -101,8 +101,8 @@ std::vector<StudyKey> keys_of_views() {
         in_quick(
             within(1, kMostFramesOfStudy,
                    {"frames", StudyKind::kInteger, "of a camera path for the throughput", "1"})),
-        in_quick(like(resolution_pattern(), {"resolutions", StudyKind::kWords,
-                                             "names of image sizes, in place of width"})),
+        in_quick(like(resolution_pattern(),
+                      {"resolutions", StudyKind::kWords, "image sizes, in place of width"})),
         within(-kMostPathStepDegrees, kMostPathStepDegrees,
                {"path_step", StudyKind::kReal, "degrees between two frames of the camera path"}),
         {"array_only", StudyKind::kBoolean, "the rasterisation arrays alone", "false"},

@@ -38,9 +38,9 @@ void add_study_view_options(CLI::App& command, ViewOptions& options) {
         command
             .add_option(
                 "--resolution", options.resolutions,
-                "720p, 1080p, 2k, 4k, 8k, or several separated by commas; in place of those "
-                "of a study")
-            ->type_name("NAMES");
+                "720p, 1080p, 2k, 4k, 8k or WIDTHxHEIGHT, or several separated by commas; in place "
+                "of those of a study")
+            ->type_name("SIZES");
     command.add_option("--width", options.width, "image width in pixels; the views are scaled")
         ->excludes(resolution);
     add_crop_option(command, options.crop);

@@ -77,6 +77,22 @@ TEST(Resolution, KeepsTheAspectRatioOfTheCamera) {
     EXPECT_NEAR(large.fx / camera.fx, 2160.0 / 420, 1e-3);
 }
 
+TEST(Resolution, MayBeAnySize) {
+    const ImageSize headset = image_size("2064x2208");
+    EXPECT_EQ(headset.width, 2064);
+    EXPECT_EQ(headset.height, 2208);
+    EXPECT_EQ(image_size("1X3").height, 3);
+    EXPECT_EQ(image_size("4K").height, 2160);
+    EXPECT_FALSE(image_size("4K").width);
+    const Camera resized = resize(full_hd(), headset.width, headset.height);
+    EXPECT_EQ(resized.width, 2064);
+    EXPECT_EQ(resized.height, 2208);
+    for (const char* text : {"0x5", "5x0", "-1x5", "5x-1", "x", "5x", "x5", "5x5x5", "5x5 ", "5 x5",
+                             "99999999999x1", "5k", ""}) {
+        EXPECT_THROW(image_size(text), InputError) << text;
+    }
+}
+
 TEST(Resolution, UnknownNamesListTheKnown) {
     for (const char* name : {"", "4kk", "1080", "p"}) {
         try {

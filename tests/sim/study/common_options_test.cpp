@@ -181,6 +181,9 @@ TEST(SweepList, ShowsTheSizeOfTheImages) {
               std::string::npos)
         << sizes;
     EXPECT_NE(sizes.find("camera 1, 3840×2160\n"), std::string::npos) << sizes;
+    const std::string exact = list({"--resolution", "64x80,65x80"});
+    EXPECT_NE(exact.find("camera 0, 64×80\n"), std::string::npos) << exact;
+    EXPECT_NE(exact.find("camera 0, 65×80\n"), std::string::npos) << exact;
 }
 
 } // namespace

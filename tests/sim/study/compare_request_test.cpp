@@ -120,6 +120,8 @@ TEST(ParseResolutions, AreHeights) {
     EXPECT_FALSE(sizes[1].width);
     EXPECT_THAT(mistake([] { parse_resolutions("4k,3k"); }), HasSubstr("'3k'"));
     EXPECT_THAT(mistake([] { parse_resolutions("4k,4K"); }), HasSubstr("twice"));
+    EXPECT_THAT(mistake([] { parse_resolutions("8x9,8X9"); }), HasSubstr("twice"));
+    EXPECT_EQ(parse_resolutions("8x9,8x10,9x9").size(), 3U);
     EXPECT_THAT(mistake([] { parse_resolutions("4k,"); }), HasSubstr("''"));
 }
 
