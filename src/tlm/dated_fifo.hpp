@@ -417,26 +417,15 @@ private:
     __attribute__((noinline)) void show_take(const T& value, Cycle readable, Cycle now) const {
         announce();
         if (departures_.log != nullptr) {
-            begin_take(departures_, readable, now);
+            departures_.begin_take(readable, now);
         }
         if (takes_.log != nullptr) {
-            begin_take(takes_, readable, now);
+            takes_.begin_take(readable, now);
             FieldValues values(*takes_.log);
             visit_fields(value, values);
         }
     }
-    /// A side of the ring in a log.
-    struct Logged {
-        EventLog* log = nullptr;
-        std::size_t kind = 0;
-        std::int64_t port = 0;
-    };
-    static void begin_take(const Logged& side, Cycle readable, Cycle now) {
-        side.log->begin(side.kind, now);
-        side.log->put(side.port);
-        side.log->put(static_cast<std::int64_t>(now - readable));
-    }
-    Logged logged(EventLog& log, const char* kind, std::size_t port, bool takes) {
+    LoggedSide logged(EventLog& log, const char* kind, std::size_t port, bool takes) {
         std::vector<EventLog::Field> fields{{"port", {}}};
         if (takes) {
             fields.push_back({"waited", {}});
@@ -490,7 +479,7 @@ private:
     std::unique_ptr<Process> foreign_reader_;
     mutable bool foreign_listens_ = false; // somebody asked for ok_to_get() or ok_to_put()
     mutable bool attended_ = false;        // by foreign blocks or by a log
-    Logged puts_, takes_, departures_;
+    LoggedSide puts_, takes_, departures_;
     mutable sc_core::sc_event foreign_item_;
     mutable sc_core::sc_event foreign_room_;
 };

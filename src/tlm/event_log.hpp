@@ -47,6 +47,20 @@ private:
     Cycle latest_ = 0;
 };
 
+/// A side of a ring in a log, if there is one: the events `kind` of port `port` of a block.
+struct LoggedSide {
+    EventLog* log = nullptr;
+    std::size_t kind = 0;
+    std::int64_t port = 0;
+
+    /// An item is taken at `now` that could be read from `readable` on.
+    void begin_take(Cycle readable, Cycle now) const {
+        log->begin(kind, now);
+        log->put(port);
+        log->put(static_cast<std::int64_t>(now - readable));
+    }
+};
+
 /// Collects the names of a message's fields. Messages that a log shows have
 ///     template <class Visitor> void visit(Visitor& visitor) const
 /// which calls number() for every field, and list() for the last one if it is a list of messages.

@@ -199,8 +199,11 @@ Cycle Process::blocked_bound(int depth) const {
         }
         earliest = std::min(earliest, writer == nullptr ? 0 : fifo.horizon_after(bound));
     }
-    proven_bound_ = std::max(local_, earliest);
-    return proven_bound_;
+    earliest = std::max(local_, earliest);
+    // A body is asked while it works, too: its input may be empty then although it has still to
+    // write what it has taken.
+    proven_bound_ = body_ == nullptr ? earliest : 0;
+    return earliest;
 }
 
 // Reads of cycle t may be decided as late as half a cycle after t, so they are certain at t + 1.

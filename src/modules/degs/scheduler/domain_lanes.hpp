@@ -35,9 +35,9 @@ public:
     }
     /// `count` of the domains, from `first` on, so that what is said of them there is said of
     /// these. It may be asked for keys only; these must exist as long.
-    DomainLanes part(std::size_t first, int count) {
+    DomainLanes part(int first, int count) {
         DomainLanes lanes(0);
-        lanes.size_ = static_cast<std::uint32_t>(count);
+        lanes.size_ = up_to(count, 1);
         lanes.keys_ = keys_ + first;
         lanes.dates_ = dates_ + first;
         lanes.lengths_ = lengths_ + first;

@@ -239,8 +239,8 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
         if (choice == Choice::InTurn) {
             lanes.set_waiting(cut_, true);
         } else {
-            const std::uint32_t first = choice == Choice::Oldest ? cut_tile_->first_lane : 0;
-            segment->key = next_key_ | (first + static_cast<std::uint32_t>(cut_));
+            const int first = choice == Choice::Oldest ? cut_tile_->first_lane : 0;
+            segment->key = next_key_ | static_cast<std::uint32_t>(first + cut_);
             lanes.set_key(cut_, std::min(lanes.key(cut_), segment->key)); // an older one stays
             if (choice == Choice::Keyed && scan_ == DomainScan::Deepest) {
                 lanes.set_length(cut_, ++domain.length);

@@ -80,7 +80,7 @@ private:
     struct Tile {
         Tile(DomainLanes&& own, Domain* first) : lanes(std::move(own)), domains(first) {}
         DomainLanes lanes;
-        std::uint32_t first_lane = 0; // of all_lanes_; for Choice::Oldest alone
+        int first_lane = 0; // of all_lanes_; for Choice::Oldest alone
         Domain* domains;
         bool started = false;     // may issue
         std::size_t waiting = 0;  // segments

@@ -232,10 +232,9 @@ inline __attribute__((always_inline)) int DrawnBank::issue_oldest() {
         if (found >= DomainLanes::kTop) {
             break;
         }
-        const std::uint32_t lane = found & all_lanes_.mask();
+        const auto lane = static_cast<int>(found & all_lanes_.mask());
         Tile& tile = *lane_tiles_[lane];
-        const auto number = static_cast<int>(lane - tile.first_lane);
-        if (!issue_one<Choice::Oldest>(tile, number, slot)) {
+        if (!issue_one<Choice::Oldest>(tile, lane - tile.first_lane, slot)) {
             break;
         }
     }

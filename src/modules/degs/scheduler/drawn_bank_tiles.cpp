@@ -71,23 +71,23 @@ DrawnBank::DrawnBank(const Parts& parts, DrawnSpans* spans)
         place.next = free_;
         free_ = &place;
     }
-    const std::size_t tiles = streams_.size() * places_of(parts);
-    domains_.resize(tiles * domain_count_);
+    const auto tiles = static_cast<int>(streams_.size() * places_of(parts));
+    const int domains = tiles * domain_count_;
+    domains_.resize(domains);
     for (Domain& domain : domains_) {
         domain.end = &domain.head;
     }
     tiles_.reserve(tiles);
     if (choice_ == Choice::Oldest) {
-        all_lanes_ = DomainLanes(static_cast<int>(domains_.size()));
+        all_lanes_ = DomainLanes(domains);
     }
-    for (std::size_t i = 0; i < tiles; ++i) {
-        const std::size_t first = i * domain_count_;
+    for (int first = 0; first < domains; first += domain_count_) {
         const bool shared = choice_ == Choice::Oldest;
         tiles_.emplace_back(shared ? all_lanes_.part(first, domain_count_)
                                    : DomainLanes(domain_count_),
                             &domains_[first]);
         if (shared) {
-            tiles_.back().first_lane = static_cast<std::uint32_t>(first);
+            tiles_.back().first_lane = first;
             lane_tiles_.insert(lane_tiles_.end(), domain_count_, &tiles_.back());
         }
     }
