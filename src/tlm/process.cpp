@@ -199,11 +199,7 @@ Cycle Process::blocked_bound(int depth) const {
         }
         earliest = std::min(earliest, writer == nullptr ? 0 : fifo.horizon_after(bound));
     }
-    earliest = std::max(local_, earliest);
-    // A body is asked while it works, too: its input may be empty then although it has still to
-    // write what it has taken.
-    proven_bound_ = body_ == nullptr ? earliest : 0;
-    return earliest;
+    return std::max(local_, earliest);
 }
 
 // Reads of cycle t may be decided as late as half a cycle after t, so they are certain at t + 1.
@@ -234,13 +230,18 @@ bool Process::arrived_after_asking(FifoBase& input) {
 }
 
 // The first date at which an item could be read that is not in the empty ring yet. Proofs are kept:
-// asks for a new one only if the last does not reach beyond `date`.
+// asks for a new one only if the last does not reach beyond `date`. Only threads ask here. While a
+// body works, its input may be empty although it has still to write what it has taken, so that
+// others seem to wait for each other: what is found then, for alarms, is not kept.
 Cycle Process::quiet_until(FifoBase& input, Cycle date) const {
     if (strict_) {
         return input.horizon(kProofDepth);
     }
-    if (input.quiet_until_ <= date) {
-        input.quiet_until_ = std::max(input.quiet_until_, input.horizon_beyond(date, kProofDepth));
+    Process* const writer = input.writer();
+    if (input.quiet_until_ <= date && writer != nullptr) {
+        const Cycle bound = writer->bound_beyond(date, kProofDepth);
+        writer->proven_bound_ = std::max(writer->proven_bound_, bound);
+        input.quiet_until_ = std::max(input.quiet_until_, input.horizon_after(bound));
     }
     return input.quiet_until_;
 }
