@@ -203,8 +203,8 @@ private:
     std::size_t input_count_ = 0;
     Cycle limit_ = kNever;
     FifoBase* room_ = nullptr;
-    bool asking_ = false;            // blocked in gains_room(): may act again at its own date
-    mutable Cycle proven_bound_ = 0; // of bound(), see quiet_until()
+    bool asking_ = false;    // blocked in gains_room(): may act again at its own date
+    Cycle proven_bound_ = 0; // of bound(), see quiet_until()
     // Others that want to know when the local date passes.
     struct Alarm {
         FifoBase* fifo = nullptr;
