@@ -48,7 +48,7 @@ private:
     const OutputFolder& out_;
     MotionWords words_;
     Motion motion_;
-    /// What the first of two runs has found, by configuration and camera.
+    /// The measures that the first of two runs has found, by configuration and camera.
     std::map<std::pair<std::size_t, int>, std::pair<bool, Measures>> halves_;
     std::vector<std::string> warnings_;
     std::vector<Failure> failures_;

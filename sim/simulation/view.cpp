@@ -56,13 +56,13 @@ std::optional<int> known_height(const std::string& name) {
     return {};
 }
 
-/// "720p, 1080p, 2k, 4k, 8k".
+/// resolution_names() for a message.
 std::string all_names() {
-    std::string names;
-    for (const Resolution& resolution : kResolutions) {
-        names.append(names.empty() ? "" : ", ").append(resolution.name);
+    std::string words;
+    for (const std::string& name : resolution_names()) {
+        words.append(words.empty() ? "" : ", ").append(name);
     }
-    return names;
+    return words;
 }
 
 /// The numbers of a text that is nothing but them and the character of `between` behind each.

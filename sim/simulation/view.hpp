@@ -13,7 +13,8 @@
 
 namespace degs::sim {
 
-/// Pixels to be had; a side that is not given follows from the other and the camera's aspect ratio.
+/// The size of an image, px. A side that is not given follows from the other and the camera's
+/// aspect ratio; without both it is the camera's own.
 struct ImageSize {
     std::optional<int> width, height;
 };

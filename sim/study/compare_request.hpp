@@ -19,7 +19,6 @@ struct NamedConfig {
     RunConfig config;
 };
 
-/// Size of the images: one of the two, or none for the camera's own.
 struct CompareRequest {
     std::vector<NamedConfig> configs; ///< the others are compared with the first
     std::vector<std::string> scenes;

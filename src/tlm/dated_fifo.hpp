@@ -94,11 +94,7 @@ public:
     }
     /// has_room(), and reserve() if there is.
     bool reserve_now(Process& writer) {
-        if (full()) {
-            if (!writer.gains_room(*this)) {
-                return false;
-            }
-        } else if (room_date() > writer.local()) {
+        if (!has_room(writer)) {
             return false;
         }
         writer_ = &writer;

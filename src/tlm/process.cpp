@@ -193,7 +193,7 @@ Cycle Process::blocked_bound(int depth) const {
             earliest = std::min(earliest, fifo.head_date());
             continue;
         }
-        if (fifo.writer() != writer || i == 0) {
+        if (fifo.writer() != writer) {
             writer = fifo.writer();
             bound = writer == nullptr ? 0 : writer->bound(depth - 1);
         }

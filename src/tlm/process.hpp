@@ -130,7 +130,8 @@ public:
     bool gains_room(FifoBase& output);
 
     /// A lower bound of the date at which this process can act again, derived from up to `depth`
-    /// blocked predecessors. It never falls.
+    /// blocked predecessors. It never falls, but is too high while a Pumped body has taken an item
+    /// and not yet written what follows from it.
     Cycle bound(int depth) const {
         return depth == 0 || asking_ || !blocked() ? local_ : blocked_bound(depth);
     }

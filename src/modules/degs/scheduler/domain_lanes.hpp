@@ -33,8 +33,8 @@ public:
             mask_ = 2 * mask_ + 1;
         }
     }
-    /// `count` of the domains, from `first` on, so that what is said of them there is said of
-    /// these. It may be asked for keys only; these must exist as long.
+    /// A view of `count` of these domains, from `first` on: keys, lengths and dates that are set
+    /// there are set here. It answers key() alone, and must not outlive this object.
     DomainLanes part(int first, int count) {
         DomainLanes lanes(0);
         lanes.size_ = up_to(count, 1);
