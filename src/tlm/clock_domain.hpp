@@ -83,6 +83,11 @@ public:
         }
         return sc_core::sc_time::from_value(date * period_.value() + period_.value() / 2);
     }
+    /// half_after(date) <= time.
+    bool past_half(Cycle date, const sc_core::sc_time& time) const {
+        return mapping_ != nullptr ? mapping_->half_after(date) <= time
+                                   : date * period_.value() + period_.value() / 2 <= time.value();
+    }
     /// First cycle that starts at or after `time`.
     Cycle ceil(const sc_core::sc_time& time) const {
         return mapping_ != nullptr ? mapping_->ceil(time) : cycles_of(time);

@@ -52,6 +52,7 @@ void Process::finish() {
 
 void Process::sleep() {
     sc_core::wait(wake_);
+    to_date_ = false; // see wake_at()
     count_activation(activations_);
 }
 
@@ -73,10 +74,24 @@ void Process::doze_until(const sc_core::sc_time& date) {
     if (date > now) {
         timeout_.notify(date - now);
         to_date_ = true;
-        sc_core::wait(wake_or_timeout_);
-        to_date_ = false;
-        count_activation(activations_);
+        sleep_to_date();
     }
+}
+
+void Process::wake_at(Cycle date) {
+    const sc_core::sc_time now = sc_core::sc_time_stamp(), time = clock_->half_after(date);
+    timeout_.notify(time > now ? time - now : sc_core::SC_ZERO_TIME);
+    to_date_ = true;
+}
+
+void Process::sleep_to_date() {
+    sc_core::wait(wake_or_timeout_);
+    to_date_ = false;
+    count_activation(activations_);
+}
+
+bool Process::full_beyond(const FifoBase& output, Cycle date) {
+    return output.room_horizon(kProofDepth) > date;
 }
 
 Cycle Process::Alarm::own_date() const {
@@ -139,7 +154,9 @@ void Process::ring_alarms() {
         const Alarm alarm = alarms_[i];
         if (alarm.proven(own)) {
             alarm.place() = FifoBase::kNoAlarm;
-            alarm.asker().wake();
+            if (Process& asker = alarm.asker(); asker.blocked() || asker.body_ != nullptr) {
+                asker.wake();
+            }                         // else it asks again by itself
             own = bound(kProofDepth); // who is awake may have moved
         } else {
             alarm_ = std::min(alarm_, alarm.own_date());
@@ -246,60 +263,101 @@ Cycle Process::quiet_until(FifoBase& input, Cycle date) const {
     return input.quiet_until_;
 }
 
-// A proof for one ring is that for its neighbours of the same writer.
-void Process::set_alarms(FifoBase* const* inputs, std::size_t count, Cycle date) {
-    const FifoBase* asked = nullptr;
+// What this process waits for, or is about to.
+void Process::look_at(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit) {
+    inputs_.resize(std::max(inputs_.size(), count));
+    std::copy_n(inputs, count, inputs_.begin());
+    from_ = from;
+    limit_ = limit;
+}
+
+Cycle Process::next_action() const {
+    const std::size_t count = std::max(input_count_, asked_count_);
+    if (count == 0) {
+        return local_;
+    }
+    Cycle date = limit_;
     for (std::size_t i = 0; i < count; ++i) {
-        FifoBase& input = *inputs[i];
-        if (input.empty() && input.writer() != nullptr &&
-            (asked == nullptr || input.writer() != asked->writer() ||
-             input.horizon_after(0) != asked->horizon_after(0))) {
-            input.writer()->set_alarm(input, date);
-            asked = &input;
+        if (!inputs_[i]->empty()) {
+            date = std::min(date, std::max(inputs_[i]->head_date(), from_));
+        }
+    }
+    return date;
+}
+
+// Asked bodies that write to `inputs` go on. Returns the next date at which something may become
+// readable because of what they have in hand.
+Cycle Process::catch_up_writers(FifoBase* const* inputs, std::size_t count, Cycle from,
+                                Cycle limit) {
+    Cycle date = kNever;
+    const Process* last = nullptr; // rings of one often lie beside each other
+    for (std::size_t i = 0; i < count; ++i) {
+        Process* const writer = inputs[i]->writer();
+        if (writer != nullptr && writer->works_asked_ && writer != last && inputs[i]->empty()) {
+            if (last == nullptr) {
+                look_at(inputs, count, from, limit);
+                asked_count_ = count;
+            }
+            date = std::min(date, writer->body_->ask() + inputs[i]->forward_latency());
+            last = writer;
+        }
+    }
+    asked_count_ = 0;
+    return date;
+}
+
+// Asked bodies that write to empty `inputs` have done all that is dated up to `date`.
+void Process::pass_writers(FifoBase* const* inputs, std::size_t count, Cycle date) {
+    for (std::size_t i = 0; i < count; ++i) {
+        Process* const writer = inputs[i]->writer();
+        if (writer != nullptr && writer->works_asked_ && inputs[i]->empty()) {
+            writer->advance_to(date + 1);
         }
     }
 }
 
 Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit) {
     for (;;) {
+        const Cycle due = catch_up_writers(inputs, count, from, limit);
         Cycle known = limit;
-        Cycle proven = ~Cycle{0}; // beyond kNever, which is what closed inputs prove
         for (std::size_t i = 0; i < count; ++i) {
             if (!inputs[i]->empty()) {
                 known = std::min(known, std::max(inputs[i]->head_date(), from));
             }
         }
         if (strict_ && known != kNever) {
-            if (sc_core::sc_time_stamp() >= clock_->half_after(known)) {
+            if (certain(known)) {
                 return known;
             }
         } else {
-            for (std::size_t i = 0; i < count && proven > known; ++i) {
-                if (inputs[i]->empty()) {
-                    proven = std::min(proven, quiet_until(*inputs[i], known));
-                }
+            // An item that is not visible yet comes later than a proof says.
+            std::size_t i = 0;
+            while (i < count && (!inputs[i]->empty() || quiet_until(*inputs[i], known) > known)) {
+                ++i;
             }
-            // An item that is not visible yet comes at `proven` or later.
-            if (proven > known ||
-                (known != kNever && sc_core::sc_time_stamp() >= clock_->half_after(known))) {
+            if (i == count) {
                 return known;
             }
-            set_alarms(inputs, count, known);
+            if (known != kNever && certain(known)) {
+                pass_writers(inputs, count, known);
+                return known;
+            }
+            if (inputs[i]->writer() != nullptr) {
+                inputs[i]->writer()->set_alarm(*inputs[i], known);
+            }
         }
         for (std::size_t i = 0; i < count; ++i) {
             inputs[i]->connect_reader(*this);
         }
-        inputs_.resize(std::max(inputs_.size(), count));
-        std::copy_n(inputs, count, inputs_.begin());
+        look_at(inputs, count, from, limit);
         input_count_ = count;
-        limit_ = limit;
         if (!alarms_.empty()) {
             ring_alarms();
         }
-        if (known == kNever) {
-            sleep();
+        if (const Cycle date = std::min(known, due); date == kNever) {
+            sleep_to_date();
         } else {
-            doze_until(clock_->half_after(known));
+            doze_until(clock_->half_after(date));
         }
         input_count_ = 0;
     }

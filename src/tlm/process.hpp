@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "degs/options.hpp"
@@ -25,6 +26,10 @@ public:
     virtual ~Pumped() = default;
     /// Handles items of the input ring until it is empty or an output ring is full.
     virtual void pump() = 0;
+    /// For a body that works only when somebody asks for what it writes, see Process::pump_asked():
+    /// it goes on as far as it can. Returns the next date at which it may write something; kNever
+    /// if that depends on items that are not there yet.
+    virtual Cycle ask() { return kNever; }
 };
 
 /// The clock and the fidelity that all blocks of one clock domain share.
@@ -151,6 +156,39 @@ public:
         inputs_.front() = &input;
         input_count_ = 1;
     }
+    /// Runs `body`, which reads `inputs`, when somebody asks for what it writes. At other times it
+    /// rests, and others see a process that waits for these inputs.
+    void pump_asked(Pumped& body, std::vector<FifoBase*> inputs) {
+        body_ = &body;
+        works_asked_ = true;
+        inputs_ = std::move(inputs);
+    }
+    /// The asked body works, so that nothing is known of it but its date.
+    void go() { input_count_ = 0; }
+    void rest() { input_count_ = inputs_.size(); }
+    /// Tells those who wait for a proof what a resting body proves.
+    void tell() {
+        if (!alarms_.empty()) {
+            ring_alarms();
+        }
+    }
+    /// Wakes the thread of this process, which waits in next_arrival() or sleep_to_date(), when
+    /// kernel time has passed `date`, at the latest.
+    void wake_at(Cycle date);
+    /// For the thread of an asked body: waits for wake_at().
+    void sleep_to_date();
+    /// The date at which this process, which waits in next_arrival() or begins to, acts if nothing
+    /// comes that is not in its rings yet.
+    Cycle next_action() const;
+    /// Changes whenever the kernel has resumed a process, if anybody counts; else 0.
+    std::uint64_t activation() const { return activations_ == nullptr ? 0 : *activations_; }
+    /// True if kernel time says that everything dated up to `date` has happened.
+    bool certain(Cycle date) const { return clock_->past_half(date, sc_core::sc_time_stamp()); }
+    /// True if nothing that is not in `input` yet can be read at `date` or before. For threads and
+    /// asked bodies.
+    bool quiet_beyond(FifoBase& input, Cycle date) const { return quiet_until(input, date) > date; }
+    /// True if `output`, which is full as far as the host has come, is full at `date`.
+    static bool full_beyond(const FifoBase& output, Cycle date);
     /// A thread-less body holds a result because `room` is full; nullptr: it holds none.
     void hold_for(FifoBase* room) { room_ = room; }
     /// Wakes the process in the next delta cycle, not at the date of the item that it waits for:
@@ -175,13 +213,16 @@ private:
     Cycle blocked_bound(int depth) const;
     bool arrived_after_asking(FifoBase& input);
     Cycle quiet_until(FifoBase& input, Cycle date) const;
-    static void set_alarms(FifoBase* const* inputs, std::size_t count, Cycle date);
+    Cycle catch_up_writers(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit);
+    void look_at(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit);
+    static void pass_writers(FifoBase* const* inputs, std::size_t count, Cycle date);
     /// Date beyond which advance_to() has more to do, without alarms: strict processes sleep to
     /// each date.
     Cycle no_alarm() const { return strict_ ? 0 : step_end_; }
     void sleep();
     void sleep_until_known(const Completion& answer);
-    /// Sleeps until woken, at the longest until kernel time `date`. May return without either.
+    /// Sleeps until woken, at the longest until kernel time `date` or wake_at(). May return without
+    /// any of them.
     void doze_until(const sc_core::sc_time& date);
     /// The work of advance_to() beyond alarm_; `counter` will count the time since `before`.
     void pass_alarm(Cycle before, const Cycle* counter);
@@ -195,14 +236,16 @@ private:
     std::uint64_t* activations_; // of all threads together, see Timebase
     Cycle memory_cycles_ = 0;    // waited for the memory
     Pumped* body_ = nullptr;
-    bool to_date_ = false; // asleep until kernel time has reached a date
+    bool works_asked_ = false; // body_, see pump_asked()
+    bool to_date_ = false;     // asleep until kernel time has reached a date
     sc_core::sc_event wake_;
     sc_core::sc_event timeout_; // stays announced when the process is woken, see doze_until()
     sc_core::sc_event_or_list wake_or_timeout_;
     // The ring on which the process is blocked, for bound().
     std::vector<FifoBase*> inputs_{1, nullptr}; // the first input_count_ count
     std::size_t input_count_ = 0;
-    Cycle limit_ = kNever;
+    std::size_t asked_count_ = 0;     // of them, while asked bodies go on
+    Cycle from_ = 0, limit_ = kNever; // see next_arrival()
     FifoBase* room_ = nullptr;
     bool asking_ = false;    // blocked in gains_room(): may act again at its own date
     Cycle proven_bound_ = 0; // of bound(), see quiet_until()

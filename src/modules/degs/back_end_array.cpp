@@ -41,9 +41,8 @@ void DegsBackEnd::connect_crossbar(int bank) {
             spans_[u]->out[m * ports + next_span_port_[u]].bind(vectors);
             banks_[bank]->in[m * inputs + input].bind(vectors);
         }
-        auto* const unit = dynamic_cast<SpanUnit*>(spans_[u]);
-        if (unit != nullptr && inputs == 1) {
-            banks_[bank]->read_from(*unit);
+        if (inputs == 1) {
+            banks_[bank]->read_from(*spans_[u]);
         }
         ++next_span_port_[u];
         ++input;

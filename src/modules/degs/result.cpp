@@ -85,7 +85,7 @@ void Degs::collect_stages(AcceleratorResult& result) const {
 RingUse Degs::span_buffer() const {
     RingUse use = use_of(blocks_.span_buffer);
     for (const auto& stage : blocks_.spans) {
-        if (const DrawnSpans* const spans = stage->drawn_spans()) {
+        for (const auto& spans : stage->drawn_spans()) {
             use += use_of(spans->lane_counts(), 0);
         }
     }
@@ -95,7 +95,7 @@ RingUse Degs::span_buffer() const {
 RingUse Degs::crossbar() const {
     RingUse use = use_of(blocks_.crossbar);
     for (const auto& stage : blocks_.spans) {
-        if (const DrawnSpans* const spans = stage->drawn_spans()) {
+        for (const auto& spans : stage->drawn_spans()) {
             use += use_of(spans->counts(), 0);
         }
     }

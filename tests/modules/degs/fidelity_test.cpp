@@ -96,6 +96,18 @@ TEST_P(PlainRunFidelity, ExactIsStrict) {
 
 INSTANTIATE_TEST_SUITE_P(Random, PlainRunFidelity, ::testing::Range(1000U, 1400U));
 
+/// Designs whose Span Units work when banks ask. The pixels are those of the suites above, so that
+/// the index is odd, with which no image is compared with the reference.
+class StreamsRunFidelity : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(StreamsRunFidelity, ExactIsStrict) {
+    Draw draw(GetParam());
+    const DegsConfig config = draw.plain(GetParam(), true);
+    expect_exact_is_strict(GetParam() | 1U, draw, config);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, StreamsRunFidelity, ::testing::Range(2000U, 2200U));
+
 void expect_same_tiles(const SlotRecorder& a, const SlotRecorder& b) {
     ASSERT_EQ(a.tiles().size(), b.tiles().size());
     for (std::size_t t = 0; t < a.tiles().size(); ++t) {

@@ -36,15 +36,23 @@ public:
         }
     }
 
-    /// Designs whose banks are DrawnBanks, of one tile stream, in exact mode.
-    DegsConfig plain(unsigned index) {
+    /// Designs whose banks are DrawnBanks in exact mode, of one tile stream that goes round robin,
+    /// or of several that share Span Units (SpanTurns).
+    DegsConfig plain(unsigned index, bool several_streams = false) {
         for (;;) {
             DegsConfig c = candidate(index);
-            c.slicing.count /= c.slicing.interleave;
-            c.slicing.interleave = 1;
+            const int streams = several_streams ? 2 + upto(2) : 1;
+            c.slicing.count = c.slicing.count / c.slicing.interleave * streams;
+            c.slicing.interleave = streams;
             c.span.rows = RowAssignment::Fixed;
             c.span.count = c.scheduler.banks;
-            c.scheduler.scan = DomainScan::RoundRobin;
+            if (several_streams) {
+                c.pixel_buffer.bytes *= streams;
+                c.span_buffer.ports.ports = 0;
+                c.span.rows_per_cycle = c.span.cycles_per_row = 1;
+            } else {
+                c.scheduler.scan = DomainScan::RoundRobin;
+            }
             c.scheduler.scoreboard = true;
             c.scheduler.select_cycles = 0;
             c.packing.reorganisation = true;

@@ -10,13 +10,16 @@
 
 namespace degs {
 
+class DrawnSpans;
+
 /// How far an Issue Bank is with the tiles of one tile stream. These come one after another and are
 /// numbered by their turn.
 struct BankStream {
     /// From a Span Unit that reaches the bank.
     struct Input {
         DatedFifo<SpanItem>* ring = nullptr;
-        std::size_t turn = 0; ///< ends of tiles that it has delivered
+        DrawnSpans* spans = nullptr; ///< read in place of the ring, unless it is null
+        std::size_t turn = 0;        ///< ends of tiles that it has delivered
     };
 
     std::size_t index = 0;

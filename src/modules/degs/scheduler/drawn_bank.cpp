@@ -7,19 +7,31 @@
 namespace degs {
 
 void DrawnBank::run() {
-    const bool single = spans_ != nullptr;
-    switch (choice_) {
-    case Choice::InTurn:
-        single ? run_cycles<true, Choice::InTurn>() : run_cycles<false, Choice::InTurn>();
-        break;
-    case Choice::Keyed:
-        single ? run_cycles<true, Choice::Keyed>() : run_cycles<false, Choice::Keyed>();
-        break;
-    case Choice::Oldest:
-        run_cycles<false, Choice::Oldest>();
-        break;
+    if (spans_ != nullptr) {
+        run_cycles<Intake::Single>();
+    } else if (streams_.front().inputs.front().spans != nullptr) {
+        run_cycles<Intake::Drawn>();
+    } else {
+        run_cycles<Intake::Rings>();
     }
     finish();
+}
+
+template <DrawnBank::Intake intake>
+void DrawnBank::run_cycles() {
+    switch (choice_) {
+    case Choice::InTurn:
+        run_cycles<intake, Choice::InTurn>();
+        break;
+    case Choice::Keyed:
+        run_cycles<intake, Choice::Keyed>();
+        break;
+    case Choice::Oldest:
+        if constexpr (intake != Intake::Single) {
+            run_cycles<intake, Choice::Oldest>();
+        }
+        break;
+    }
 }
 
 // The pixels of the span's next segment.
@@ -33,7 +45,7 @@ inline bool DrawnBank::can_cut() const {
     return left_ > 0 && (free_ != nullptr || (cut_mask() & cut_tile_->domains[cut_].live) == 0);
 }
 
-template <bool single, DrawnBank::Choice choice>
+template <DrawnBank::Intake intake, DrawnBank::Choice choice>
 void DrawnBank::run_cycles() {
     for (bool over = this->over(); !over;) {
         now_ = self_.local();
@@ -43,8 +55,8 @@ void DrawnBank::run_cycles() {
         if (contexts_owed_ && now_ >= contexts_from_) {
             see_contexts();
         }
-        accept<single, choice>();
-        const bool issued = issue<single, choice>() != 0;
+        accept<intake, choice>();
+        const bool issued = issue<intake, choice>() != 0;
         if (closing_ != 0) {
             finish_tiles();
             over = this->over();
@@ -74,12 +86,12 @@ void DrawnBank::run_cycles() {
 
 // Intake.
 
-template <bool single, DrawnBank::Choice choice>
+template <DrawnBank::Intake intake, DrawnBank::Choice choice>
 inline __attribute__((always_inline)) void DrawnBank::accept() {
     features_full_ = false;
     int spans = spans_per_cycle_;
     for (int budget = segments_per_cycle_; budget > 0; --budget) {
-        if (left_ <= 0 && (spans-- == 0 || !open_span<single>())) {
+        if (left_ <= 0 && (spans-- == 0 || !open_span<intake>())) {
             break;
         }
         if (!cut_segment<choice>()) {
@@ -88,38 +100,65 @@ inline __attribute__((always_inline)) void DrawnBank::accept() {
     }
 }
 
+// The stream, which has no span to take now, has none before this date, as long as its tiles stay
+// as they are.
+template <DrawnBank::Intake intake>
+inline __attribute__((always_inline)) Cycle
+DrawnBank::next_span_from(const BankStream& stream) const {
+    if constexpr (intake == Intake::Rings) {
+        return 0;
+    }
+    const BankStream::Input& input = stream.inputs.front();
+    if (!takes(stream, input)) {
+        return kNever;
+    }
+    const DrawnSpans& spans = *input.spans;
+    return spans.empty() ? spans.quiet_until() : spans.head_date();
+}
+
 // Takes a span of the next stream that has one, in turn; a span cut halfway is finished first.
-template <bool single>
+template <DrawnBank::Intake intake>
 inline __attribute__((always_inline)) bool DrawnBank::open_span() {
-    if constexpr (single) {
-        return take_from<single>(streams_.front());
+    if constexpr (intake == Intake::Single) {
+        return take_from<intake>(streams_.front());
+    }
+    if (now_ < spans_from_) {
+        return false;
     }
     BankStream* const first = next_stream_;
+    Cycle from = kNever;
     do {
         BankStream& stream = *next_stream_;
         next_stream_ = stream.next;
-        if (take_from<single>(stream)) {
+        if (take_from<intake>(stream)) {
             return true;
         }
+        from = std::min(from, next_span_from<intake>(stream));
     } while (next_stream_ != first);
+    spans_from_ = from;
     return false;
 }
 
+template <DrawnBank::Intake intake>
+inline __attribute__((always_inline)) DrawnSpans&
+DrawnBank::spans_of(const BankStream::Input& input) const {
+    return intake == Intake::Single ? *spans_ : *input.spans;
+}
+
 // The one whose item has arrived first, ties by input; nullptr: none may be taken.
-template <bool single>
+template <DrawnBank::Intake intake>
 inline __attribute__((always_inline)) BankStream::Input*
 DrawnBank::earliest_input(BankStream& stream) {
-    if constexpr (single) {
-        BankStream::Input& only = stream.inputs.front();
-        return takes(stream, only) && arrived(*spans_) ? &only : nullptr;
-    }
     if (!stream.enterable) {
         return nullptr;
     }
+    if constexpr (intake != Intake::Rings) {
+        BankStream::Input& only = stream.inputs.front();
+        return only.turn == stream.entering && arrived(spans_of<intake>(only)) ? &only : nullptr;
+    }
     if (stream.inputs.size() == 1) {
         BankStream::Input& only = stream.inputs.front();
-        const bool quiet = only.ring->empty() && now_ < only.ring->quiet_until();
-        return !quiet && only.turn == stream.entering && arrived(*only.ring) ? &only : nullptr;
+        return only.turn == stream.entering && arrived(*only.ring) ? &only : nullptr;
     }
     BankStream::Input* source = nullptr;
     Cycle earliest = kNever;
@@ -161,17 +200,18 @@ inline __attribute__((always_inline)) void DrawnBank::start(const BankStream& st
 }
 
 // False if no span of the stream may be taken. Ends of tiles on the way cost nothing.
-template <bool single>
+template <DrawnBank::Intake intake>
 inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stream) {
     for (;;) {
-        BankStream::Input* const source = earliest_input<single>(stream);
+        BankStream::Input* const source = earliest_input<intake>(stream);
         if (source == nullptr) {
             return false;
         }
         TileNumber number = kNoTile;
         bool row = false;
-        if constexpr (single) {
-            const DrawnSpans::Row& span = spans_->front();
+        if constexpr (intake != Intake::Rings) {
+            DrawnSpans& spans = spans_of<intake>(*source);
+            const DrawnSpans::Row& span = spans.front();
             number = span.tile;
             row = !span.end();
             if (row && !admits(stream, number, span.splat)) {
@@ -183,7 +223,7 @@ inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stre
             if (row) {
                 start(stream, span.row, span);
             }
-            spans_->drop(now_);
+            spans.drop(now_);
         } else {
             const SpanItem& item = source->ring->front();
             number = item.tile;

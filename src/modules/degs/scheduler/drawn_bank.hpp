@@ -40,9 +40,8 @@ public:
     /// room.
     static bool can_run(const Parts& parts);
 
-    /// Before the simulation starts; all parts must exist until the bank has finished. `spans`
-    /// passes the only input in place of its ring, unless it is null.
-    DrawnBank(const Parts& parts, DrawnSpans* spans);
+    /// Before the simulation starts; all parts must exist until the bank has finished.
+    explicit DrawnBank(const Parts& parts);
     DrawnBank(const DrawnBank&) = delete; // entries point at each other
     DrawnBank& operator=(const DrawnBank&) = delete;
     /// Runs the bank until the job is over.
@@ -55,8 +54,15 @@ private:
         Keyed,  ///< keys, in the oldest tile of a stream that has a domain to issue from
         Oldest  ///< keys, in all tiles at once: each stream has one that may issue
     };
-    /// `single`: one tile stream, through DrawnSpans. The loop then asks for nothing else.
-    template <bool single, Choice choice>
+    /// Where spans come from. The loop over cycles asks for nothing else.
+    enum class Intake {
+        Single, ///< DrawnSpans of the only tile stream
+        Drawn,  ///< DrawnSpans, one per stream
+        Rings   ///< rings of the crossbar
+    };
+    template <Intake intake, Choice choice>
+    void run_cycles();
+    template <Intake intake>
     void run_cycles();
     static Choice choice_of(const Parts& parts);
 
@@ -88,21 +94,27 @@ private:
         TileNumber number = kNoTile;
         std::int16_t context = 0;
     };
-    /// A tile stream: its tile that enters, and what a cycle finds ready.
+    /// A tile stream: its tile that enters, the only one that may issue, if there is no more than
+    /// one, and what a cycle finds ready.
     struct Stream {
         Tile* entering = nullptr;
+        Tile* only = nullptr;
         Tile* tile = nullptr;
         std::uint64_t rank = kNothing; // see find()
     };
 
     // Intake.
-    template <bool single, Choice choice>
+    template <Intake intake, Choice choice>
     inline void accept();
-    template <bool single>
+    template <Intake intake>
     inline bool open_span();
-    template <bool single>
+    template <Intake intake>
+    inline Cycle next_span_from(const BankStream& stream) const;
+    template <Intake intake>
     inline bool take_from(BankStream& stream);
-    template <bool single>
+    template <Intake intake>
+    inline DrawnSpans& spans_of(const BankStream::Input& input) const;
+    template <Intake intake>
     inline BankStream::Input* earliest_input(BankStream& stream);
     inline bool admits(const BankStream& stream, TileNumber number, std::uint32_t splat);
     template <class Row>
@@ -121,7 +133,8 @@ private:
     void list_started();
     // An item that is there needs no proof.
     bool arrived(FifoBase& fifo) const {
-        return fifo.empty() ? self_.arrived(fifo) : fifo.head_date() <= now_;
+        return fifo.empty() ? now_ >= fifo.quiet_until() && self_.arrived(fifo)
+                            : fifo.head_date() <= now_;
     }
     static bool takes(const BankStream& stream, const BankStream::Input& input) {
         return input.turn == stream.entering && stream.enterable;
@@ -131,7 +144,7 @@ private:
     }
 
     // Issue.
-    template <bool single, Choice choice>
+    template <Intake intake, Choice choice>
     inline int issue();
     template <Choice choice>
     inline int issue_in_order();
@@ -141,7 +154,7 @@ private:
     template <Choice choice>
     inline std::uint64_t find(const Tile& tile, Cycle slot) const;
     template <Choice choice>
-    inline bool find_ready(const BankStream& stream, Cycle slot);
+    inline bool find_ready(std::size_t number, Cycle slot);
     template <Choice choice>
     inline std::size_t first_ready(Cycle slot);
     template <Choice choice>
@@ -186,7 +199,7 @@ private:
     PackingUnit& packing_;
     ArraySlice& slice_;
     std::vector<BankStream>& streams_;
-    DrawnSpans* spans_;
+    DrawnSpans* spans_; // of the only stream; null if there are several, or rings
     DatedFifo<Termination>& terminations_;
     const Segmenter& segmenter_;
     FeatureBuffer& features_;
@@ -230,6 +243,7 @@ private:
     const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see DrawnRow
     DrawnRow taken_;                                             // a copy, unless its ring keeps it
     BankStream* next_stream_;                                    // whose span is taken next
+    Cycle spans_from_ = 0; // no stream has a span before, as long as all tiles stay as they are
     bool features_full_ = false, no_room_ = false, width_limited_ = false;
     OpenPacket packet_;
     bool ends_tile_ = false;     // it carries the end of a tile

@@ -11,16 +11,17 @@ namespace degs {
 
 // Issue. Returns the number of segments issued.
 
-template <bool single, DrawnBank::Choice choice>
+template <DrawnBank::Intake intake, DrawnBank::Choice choice>
 inline __attribute__((always_inline)) int DrawnBank::issue() {
     no_room_ = false;
     if (issuable_ == 0) {
         width_limited_ = false;
         return 0;
     }
-    const int issued = choice == Choice::Oldest   ? issue_oldest()
-                       : single || single_stream_ ? issue_in_order<choice>()
-                                                  : issue_from_all<choice>();
+    const bool in_order = intake == Intake::Single || (intake == Intake::Rings && single_stream_);
+    const int issued = choice == Choice::Oldest ? issue_oldest()
+                       : in_order               ? issue_in_order<choice>()
+                                                : issue_from_all<choice>();
     width_limited_ = issued == issue_width_;
     return issued;
 }
@@ -75,22 +76,20 @@ inline __attribute__((always_inline)) int DrawnBank::issue_in_order() {
 // Looks for a domain of the stream that may issue, in its oldest tile that has one. False if there
 // is none.
 template <DrawnBank::Choice choice>
-inline __attribute__((always_inline)) bool DrawnBank::find_ready(const BankStream& stream,
-                                                                 Cycle slot) {
-    Stream& ready = own_[stream.index];
-    if (ready.rank != kNothing) {
-        return true;
+inline __attribute__((always_inline)) bool DrawnBank::find_ready(std::size_t number, Cycle slot) {
+    Stream& ready = own_[number];
+    if (ready.only != nullptr) {
+        ready.tile = ready.only;
+        ready.rank = ready.only->waiting == 0 ? kNothing : find<choice>(*ready.only, slot);
+        return ready.rank != kNothing;
     }
+    const BankStream& stream = streams_[number];
     Tile* const* const end = started_.data() + stream.end_started;
     for (Tile* const* place = started_.data() + stream.first_started; place != end; ++place) {
         Tile& tile = **place;
-        if (tile.waiting == 0) {
-            continue;
-        }
-        const std::uint64_t rank = find<choice>(tile, slot);
-        if (rank != kNothing) {
+        ready.rank = tile.waiting == 0 ? kNothing : find<choice>(tile, slot);
+        if (ready.rank != kNothing) {
             ready.tile = &tile;
-            ready.rank = rank;
             return true;
         }
     }
@@ -103,24 +102,26 @@ template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) std::size_t DrawnBank::first_ready(Cycle slot) {
     std::size_t stream = issued_stream_;
     do {
-        stream = streams_[stream].next->index;
-        if (find_ready<choice>(streams_[stream], slot)) {
+        stream = stream + 1 == own_.size() ? 0 : stream + 1;
+        if (find_ready<choice>(stream, slot)) {
             return stream;
         }
     } while (stream != issued_stream_);
-    return streams_.size();
+    return own_.size();
 }
 
-// The stream whose ready domain goes first; if there is none, their number.
+// The stream whose ready domain goes first; if there is none, their number. What was found for this
+// slot holds until it is issued.
 template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) std::size_t DrawnBank::least_ready(Cycle slot) {
-    std::size_t chosen = streams_.size();
+    std::size_t chosen = own_.size();
     std::uint64_t least = kNothing;
-    for (const BankStream& stream : streams_) {
-        find_ready<choice>(stream, slot);
-        const std::uint64_t rank = own_[stream.index].rank;
-        chosen = rank < least ? stream.index : chosen;
-        least = std::min(rank, least);
+    for (std::size_t i = 0; i < own_.size(); ++i) {
+        if (own_[i].rank == kNothing) {
+            find_ready<choice>(i, slot);
+        }
+        chosen = own_[i].rank < least ? i : chosen;
+        least = std::min(own_[i].rank, least);
     }
     return chosen;
 }
@@ -128,19 +129,18 @@ inline __attribute__((always_inline)) std::size_t DrawnBank::least_ready(Cycle s
 // For several streams; see IssueBank::issue_segments().
 template <DrawnBank::Choice choice>
 inline __attribute__((always_inline)) int DrawnBank::issue_from_all() {
+    const bool in_turn = choice == Choice::InTurn || scan_ == DomainScan::RoundRobin;
     int issued = 0;
     for (Cycle date = 0; issued < issue_width_; ++issued) {
         const Cycle slot = packet_.next_execution(now_);
-        if (slot != date) { // another domain may be ready now
+        if (!in_turn && slot != date) { // another domain may be ready now
             date = slot;
             for (Stream& ready : own_) {
                 ready.rank = kNothing;
             }
         }
-        const std::size_t chosen = choice == Choice::InTurn || scan_ == DomainScan::RoundRobin
-                                       ? first_ready<choice>(slot)
-                                       : least_ready<choice>(slot);
-        if (chosen == streams_.size()) {
+        const std::size_t chosen = in_turn ? first_ready<choice>(slot) : least_ready<choice>(slot);
+        if (chosen == own_.size()) {
             break;
         }
         Stream& ready = own_[chosen];

@@ -50,9 +50,10 @@ bool DrawnBank::can_run(const Parts& parts) {
            parts.streams.size() * places_of(parts) * domains_of(parts) <= kMostDomains;
 }
 
-DrawnBank::DrawnBank(const Parts& parts, DrawnSpans* spans)
+DrawnBank::DrawnBank(const Parts& parts)
     : bank_(parts.bank), config_(parts.config), job_(parts.job), packing_(parts.packing),
-      slice_(*parts.packing.slice()), streams_(parts.streams), spans_(spans),
+      slice_(*parts.packing.slice()), streams_(parts.streams),
+      spans_(streams_.size() == 1 ? streams_.front().inputs.front().spans : nullptr),
       terminations_(parts.terminations), segmenter_(parts.segmenter), features_(parts.features),
       tile_end_(parts.tiles), self_(parts.self), stats_(parts.stats),
       single_stream_(streams_.size() == 1), domain_count_(domains_of(parts)),
@@ -206,6 +207,7 @@ void DrawnBank::list_started() {
     }
     started_.clear();
     issuable_ = 0;
+    spans_from_ = 0;
     for (BankStream& stream : streams_) {
         stream.first_started = started_.size();
         for (std::size_t turn = stream.oldest; turn < stream.first_unstarted(); ++turn) {
@@ -215,6 +217,8 @@ void DrawnBank::list_started() {
             started_.push_back(&tile);
         }
         stream.end_started = started_.size();
+        own_[stream.index].only =
+            stream.end_started == stream.first_started + 1 ? started_.back() : nullptr;
         stream.enterable = stream.entering < end_of_intake(stream);
     }
 }
@@ -295,6 +299,7 @@ void DrawnBank::take_end(BankStream& stream, TileNumber number) {
     ++closing_;
     stream.enterable = stream.entering < end_of_intake(stream);
     stream.entered = false;
+    spans_from_ = 0;
 }
 
 // All tasks that came in have been issued or dropped. A useful task is never dropped.
@@ -349,7 +354,8 @@ bool DrawnBank::watch_inputs() {
     bool waiting = false;
     for (const BankStream& stream : streams_) {
         for (const BankStream::Input& input : stream.inputs) {
-            FifoBase& ring = spans_ != nullptr ? static_cast<FifoBase&>(*spans_) : *input.ring;
+            FifoBase& ring =
+                input.spans != nullptr ? static_cast<FifoBase&>(*input.spans) : *input.ring;
             if (ring.empty()) {
                 watched_.push_back(&ring);
             } else if (takes(stream, input)) {

@@ -83,9 +83,13 @@ void IssueBank::start_of_simulation() {
     if (!DrawnBank::can_run(parts)) {
         return;
     }
-    const bool hands_over = unit_ != nullptr && streams_.size() == 1;
-    drawn_bank_ =
-        std::make_unique<DrawnBank>(parts, hands_over ? unit_->hand_over(self_) : nullptr);
+    if (spans_ != nullptr) {
+        const auto& drawn_spans = spans_->hand_over(self_);
+        for (std::size_t stream = 0; stream < drawn_spans.size(); ++stream) {
+            streams_[stream].inputs.front().spans = drawn_spans[stream].get();
+        }
+    }
+    drawn_bank_ = std::make_unique<DrawnBank>(parts);
 }
 
 void IssueBank::run() {

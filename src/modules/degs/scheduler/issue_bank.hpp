@@ -108,8 +108,8 @@ public:
               int contexts);
     ~IssueBank() override;
 
-    /// The only Span Unit that reaches the bank; before the simulation starts.
-    void read_from(SpanUnit& unit) { unit_ = &unit; }
+    /// The only Span Units that reach the bank; before the simulation starts.
+    void read_from(SpanStage& spans) { spans_ = &spans; }
     /// Writes what is issued into `trace`; before the simulation starts.
     void trace_to(IssueTrace& trace) { trace_ = &trace; }
     /// Spans and ends of tiles taken, ended pixels and contexts seen, segments issued, packets.
@@ -219,7 +219,7 @@ private:
     IssueTrace logged_issues_;
     EventLog* log_ = nullptr;
     std::size_t tile_event_ = 0, over_event_ = 0;
-    SpanUnit* unit_ = nullptr;
+    SpanStage* spans_ = nullptr;
     std::unique_ptr<DrawnBank> drawn_bank_; // what runs in its place, if anything does
 };
 

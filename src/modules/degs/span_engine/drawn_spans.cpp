@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "modules/degs/span_engine/span_turns.hpp"
+
 namespace degs {
 namespace {
 
@@ -34,7 +36,8 @@ DrawnSpans::DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows,
     reads_mask_ = reads_.size() - 1;
     span_ = std::min(reads_.size(), lane_.depth());
     head_ = &cells_.front().date;
-    free_ = &room_;
+    room_ = depth_;
+    free_ = &free_from_;
     lane_.connect_writer(*rows.writer());
     lane_.connect_reader(unit);
     connect_writer(unit);
@@ -47,6 +50,9 @@ void DrawnSpans::make_room(Process& writer) {
     if (span_ < lane_.depth()) {
         add_places();
         return;
+    }
+    if (turns_ != nullptr) {
+        turns_->pump();
     }
     while (lane_.full()) {
         writer.block_on_room(lane_);
@@ -88,7 +94,20 @@ void DrawnSpans::put_end(Process& writer, TileNumber tile) {
     enter(writer.local());
 }
 
+void DrawnSpans::tell_unit() {
+    if (turns_->waits_for(*this)) {
+        turns_->pump();
+    }
+}
+
 void DrawnSpans::pump() {
+    if (turns_ != nullptr) {
+        turns_->has_room();
+        if (lane_.full()) {
+            turns_->pump();
+        }
+        return;
+    }
     if (!holding_ || filled_ == depth_) {
         return;
     }

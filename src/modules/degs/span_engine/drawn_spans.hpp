@@ -8,12 +8,15 @@
 
 namespace degs {
 
+class SpanTurns;
+
 /// A lane of the Span Buffer, its Span Unit and its ring of the crossbar, where rows come drawn
 /// (TileDrawing) and the unit reaches one bank: every row of a frame passes here. What is in the
 /// rows was drawn before, so that they stay where the Slicing Unit has put them until the bank has
 /// cut them; when the lane has room, when the unit takes a row, when the crossbar has room for it,
 /// and when the bank may read it, is worked out here. Dates and counts are those of SpanUnit and
-/// DatedFifo, which do the same for all other designs and in strict mode.
+/// DatedFifo, which do the same for all other designs and in strict mode. A unit that serves
+/// several streams takes their rows in turn (SpanTurns).
 ///
 /// It is itself the ring that the bank reads; lane() is the one that the Slicing Unit writes.
 class DrawnSpans final : public FifoBase, public Pumped {
@@ -35,6 +38,11 @@ public:
 
     /// Tells of every row that the unit has taken; before the simulation starts.
     void report_to(DatedFifo<RowSolved>& solved) { solved_ = &solved; }
+    /// `turns` takes the rows for the unit; before the simulation starts.
+    void take_with(SpanTurns& turns) {
+        turns_ = &turns;
+        holding_ = true;
+    }
 
     // For the Slicing Unit, see DatedFifo.
     FifoBase& lane() { return lane_; }
@@ -58,6 +66,21 @@ public:
     /// Takes rows from the lane until it is empty, or the crossbar is full and the unit holds
     /// another span.
     void pump() override;
+
+    // For SpanTurns. The lane's oldest item is a row or the end of a tile.
+    std::size_t waiting() const { return lane_.items(); }
+    Cycle lane_head() const { return lane_.head; } ///< date from which it may be taken
+    bool next_ends() const { return rows_[(put_ - lane_.items()) & rows_mask_].end(); }
+    /// Date from which the crossbar has room for the next item. Only if not full().
+    Cycle room_date() const { return free_from_; }
+    std::size_t room() const { return depth_ - filled_; }
+    /// The oldest item leaves the lane. Returns its number.
+    inline std::size_t leave(Cycle now);
+    /// The unit takes the oldest item, a row, and sends its span, if it has one.
+    inline void take_row(Cycle now);
+    /// An item that has left the lane enters the crossbar.
+    inline void send(std::size_t number, Cycle now);
+    TileNumber tile_of(std::size_t number) const { return rows_[number & rows_mask_].tile; }
 
     /// To be added to those of the rings.
     DatedFifo<SpanItem>::Stats counts() const {
@@ -114,6 +137,8 @@ private:
     [[gnu::noinline]] void add_rows();
     inline Row& next_row();
     inline void enter(Cycle now);
+    [[gnu::noinline]] void tell_unit();
+    inline void count_taken(std::size_t number, Cycle written, Cycle now);
     inline void solve(std::size_t number, Cycle written);
     [[gnu::noinline]] void solve_other(std::size_t number, Cycle now);
     inline void hold(std::size_t number, Cycle now);
@@ -127,6 +152,7 @@ private:
     SpanStage::Stats& stats_;
     TileEnd& tiles_;
     DatedFifo<RowSolved>* solved_ = nullptr;
+    SpanTurns* turns_ = nullptr; // null: the unit serves nobody else
     Cycle cycles_per_row_;
     // All rings have as many places as a power of two. Rows are numbered as they enter the lane.
     Lane lane_;
@@ -142,8 +168,10 @@ private:
     std::vector<Cell> cells_; // of the crossbar
     std::size_t mask_ = 0;
     std::size_t made_ = 0, taken_ = 0; // so far
-    Cycle room_ = 0;                   // date from which the crossbar has had room again
-    bool holding_ = false;             // the unit, because the crossbar is full: held_
+    Cycle free_from_ = 0;              // date from which the crossbar has room
+    // The unit takes no row by itself: it serves others, too, or holds held_ because the crossbar
+    // is full.
+    bool holding_ = false;
     std::size_t held_ = 0;
 };
 
@@ -181,13 +209,13 @@ inline __attribute__((always_inline)) void DrawnSpans::enter(Cycle now) {
         lane_.head = now + lane_.forward_latency();
     }
     lane_.enter();
+    if (turns_ != nullptr) {
+        tell_unit();
+    }
 }
 
-// The unit takes a row.
-inline __attribute__((always_inline)) void DrawnSpans::solve(std::size_t number, Cycle written) {
-    const Cycle free = unit_.local();
-    const Cycle now = std::max(free, written + lane_.forward_latency());
-    lane_counts_.empty_cycles += now - free;
+inline __attribute__((always_inline)) void DrawnSpans::count_taken(std::size_t number,
+                                                                   Cycle written, Cycle now) {
     lane_counts_.occupied_cycles += now - written;
     // The mark rises by one where as many items as before it were still inside.
     const std::size_t mark = lane_counts_.high_water;
@@ -195,6 +223,14 @@ inline __attribute__((always_inline)) void DrawnSpans::solve(std::size_t number,
         lane_counts_.high_water = mark + 1;
     }
     reads_[number & reads_mask_] = now;
+}
+
+// The unit takes a row.
+inline __attribute__((always_inline)) void DrawnSpans::solve(std::size_t number, Cycle written) {
+    const Cycle free = unit_.local();
+    const Cycle now = std::max(free, written + lane_.forward_latency());
+    lane_counts_.empty_cycles += now - free;
+    count_taken(number, written, now);
     const int length = rows_[number & rows_mask_].length;
     if (length <= 0 || solved_ != nullptr) {
         solve_other(number, now);
@@ -233,6 +269,45 @@ inline __attribute__((always_inline)) void DrawnSpans::deliver(std::size_t numbe
     }
 }
 
+inline __attribute__((always_inline)) std::size_t DrawnSpans::leave(Cycle now) {
+    const std::size_t number = put_ - lane_.items();
+    const bool was_full = lane_.full();
+    count_taken(number, entered_[number & rows_mask_], now);
+    lane_.leave();
+    lane_.head = entered_[(number + 1) & rows_mask_] + lane_.forward_latency();
+    if (was_full) {
+        lane_.free_from = now;
+        if (lane_.writer()->blocked()) {
+            lane_.writer()->wake();
+        }
+    }
+    return number;
+}
+
+inline __attribute__((always_inline)) void DrawnSpans::take_row(Cycle now) {
+    const std::size_t number = leave(now);
+    stats_.rows++;
+    stats_.busy += cycles_per_row_;
+    const int length = rows_[number & rows_mask_].length;
+    if (length == 0) {
+        stats_.empty_rows++;
+        return;
+    }
+    stats_.spans++;
+    stats_.tasks += length;
+    send(number, now);
+}
+
+inline __attribute__((always_inline)) void DrawnSpans::send(std::size_t number, Cycle now) {
+    Cell& cell = cells_[made_++ & mask_];
+    cell.date = now + forward_latency_;
+    cell.row = number;
+    free_from_ = cells_[(made_ - depth_) & mask_].read + release_latency_; // unless it is full
+    if (filled_++ == 0 && reader_->blocked()) {
+        reader_->wake();
+    }
+}
+
 inline __attribute__((always_inline)) void DrawnSpans::drop(Cycle now) {
     Cell& cell = cells_[taken_ & mask_];
     const Cycle written = cell.date - forward_latency_;
@@ -245,7 +320,7 @@ inline __attribute__((always_inline)) void DrawnSpans::drop(Cycle now) {
     kept_from_ = cell.row;
     head_ = &cells_[++taken_ & mask_].date;
     if (filled_-- == depth_) {
-        room_ = now + release_latency_;
+        free_from_ = now + release_latency_;
         pump();
     }
 }

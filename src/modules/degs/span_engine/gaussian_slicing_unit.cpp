@@ -96,7 +96,7 @@ void GaussianSlicingUnit::end_of_elaboration() {
 void GaussianSlicingUnit::run() {
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
         const SpanStage* const reader = readers_[lane];
-        drawn_lanes_[lane] = reader != nullptr ? reader->drawn_spans() : nullptr;
+        drawn_lanes_[lane] = reader != nullptr ? reader->drawn_spans(*lanes_[lane]) : nullptr;
     }
     for (TileNumber number = tile_after(kNoTile); number != kNoTile; number = tile_after(number)) {
         slice_tile(number);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "modules/degs/span_engine/drawn_spans.hpp"
 #include "modules/degs/span_engine/span_stage.hpp"
+#include "modules/degs/span_engine/span_turns.hpp"
 
 namespace degs {
 
@@ -26,6 +29,9 @@ public:
     };
     SpanPool(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
              const RenderJob& job, const Share& share);
+
+    /// If one unit takes a row per cycle from one lane per stream and reaches one bank alone.
+    const std::vector<std::unique_ptr<DrawnSpans>>& hand_over(Process& bank) override;
 
 private:
     struct Stream {
@@ -70,6 +76,7 @@ private:
     bool waiting_ = false;         // a row or an end waits for a place in the crossbar
     bool ends_passed_ = false;     // since a unit began to look for rows
     std::vector<FifoBase*> watched_;
+    std::unique_ptr<SpanTurns> turns_; // what does all of this once rows are handed over
 };
 
 } // namespace degs

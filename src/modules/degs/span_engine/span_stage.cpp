@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/degs/span_engine/span_stage.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "modules/degs/span_engine/drawn_spans.hpp"
 
 namespace degs {
 
@@ -27,6 +30,38 @@ void SpanStage::Config::describe(ConfigVisitor& visitor) {
     visitor.require(
         rows_per_cycle == 1 || cycles_per_row == 1,
         {"rows_per_cycle", "must be 1 where a row takes several cycles", "1", {"cycles_per_row"}});
+}
+
+SpanStage::SpanStage(const sc_core::sc_module_name& name, const Config& config,
+                     const RenderJob& job, std::size_t inputs, std::size_t outputs,
+                     std::size_t streams)
+    : sc_core::sc_module(name), in("in", inputs), out("out", outputs),
+      solved("solved", config.reports_rows ? inputs : 0), config_(config), job_(job),
+      tiles_(job, config.granted ? streams : 0) {}
+
+SpanStage::~SpanStage() = default;
+
+DrawnSpans* SpanStage::drawn_spans(const DatedFifo<RowItem>& lane) const {
+    for (std::size_t i = 0; i < drawn_spans_.size(); ++i) {
+        if (in[i].operator->() == &lane) {
+            return drawn_spans_[i].get();
+        }
+    }
+    return nullptr;
+}
+
+bool SpanStage::can_hand_over() {
+    const auto attended = [](auto& port) { return port.ring().attended(); };
+    return config_.drawn && std::none_of(in.begin(), in.end(), attended) &&
+           std::none_of(out.begin(), out.end(), attended);
+}
+
+void SpanStage::hand_over(std::size_t lane, Process& self, Process& bank) {
+    drawn_spans_.push_back(std::make_unique<DrawnSpans>(self, bank, in[lane].ring(),
+                                                        out[lane].ring(), config_, stats_, tiles_));
+    if (config_.reports_rows) {
+        drawn_spans_.back()->report_to(solved[lane].ring());
+    }
 }
 
 void SpanStage::start_of_simulation() {

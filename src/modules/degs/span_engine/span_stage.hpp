@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <new>
+#include <vector>
 
 #include <systemc>
 
@@ -67,17 +69,21 @@ public:
     sc_core::sc_vector<FifoPort<RowSolved>> solved;
 
     const Stats& stats() const { return stats_; }
-    /// What carries rows from the lane to the bank in place of the rings; nullptr if nothing does.
-    virtual DrawnSpans* drawn_spans() const { return nullptr; }
+    ~SpanStage() override;
+    /// What `bank`, which reads nobody else's rows, reads in place of the crossbar's rings, one per
+    /// stream, and the Slicing Units write in place of the lanes; empty unless rows come drawn and
+    /// nobody looks on. Before the simulation starts.
+    virtual const std::vector<std::unique_ptr<DrawnSpans>>& hand_over(Process& bank) = 0;
+    /// What hand_over() has returned.
+    const std::vector<std::unique_ptr<DrawnSpans>>& drawn_spans() const { return drawn_spans_; }
+    /// What of it carries the rows of `lane`; nullptr if nothing does.
+    DrawnSpans* drawn_spans(const DatedFifo<RowItem>& lane) const;
     /// Rows taken from the lanes, Span Vectors and ends of tiles sent.
     void log_to(EventLog& log) override { log_ = &log; }
 
 protected:
     SpanStage(const sc_core::sc_module_name& name, const Config& config, const RenderJob& job,
-              std::size_t inputs, std::size_t outputs, std::size_t streams)
-        : sc_core::sc_module(name), in("in", inputs), out("out", outputs),
-          solved("solved", config.reports_rows ? inputs : 0), config_(config), job_(job),
-          tiles_(job, config.granted ? streams : 0) {}
+              std::size_t inputs, std::size_t outputs, std::size_t streams);
 
     void start_of_simulation() override;
     void connect_reports(Process& self) {
@@ -91,6 +97,10 @@ protected:
             solved[lane]->put(self, {});
         }
     }
+    /// Replaces lane `lane` and its ring of the crossbar; for hand_over().
+    void hand_over(std::size_t lane, Process& self, Process& bank);
+    /// True if rows come drawn, and nobody looks at what goes through the rings.
+    bool can_hand_over();
     /// Solves a row of a splat in `result`. False: it misses every pixel of the tile.
     inline bool solve(const RowItem& row, SpanItem& result);
 
@@ -99,6 +109,7 @@ protected:
     TileEnd tiles_;
     Stats stats_;
     EventLog* log_ = nullptr;
+    std::vector<std::unique_ptr<DrawnSpans>> drawn_spans_; // see hand_over(): by lane
 };
 
 // Inlined in the hot loops. The pixels of the span are made in place, because a copy of what was

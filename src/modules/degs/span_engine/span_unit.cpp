@@ -42,17 +42,12 @@ void SpanUnit::start_of_simulation() {
     }
 }
 
-DrawnSpans* SpanUnit::hand_over(Process& bank) {
-    if (!config_.drawn || rings_.size() != 1 || rows_->attended() || rings_.front()->attended()) {
-        return nullptr;
+const std::vector<std::unique_ptr<DrawnSpans>>& SpanUnit::hand_over(Process& bank) {
+    if (rings_.size() == 1 && can_hand_over()) {
+        SpanStage::hand_over(0, self_, bank);
+        self_.pump_with(*drawn_spans_.front(), drawn_spans_.front()->lane());
     }
-    drawn_spans_ =
-        std::make_unique<DrawnSpans>(self_, bank, *rows_, *rings_.front(), config_, stats_, tiles_);
-    if (config_.reports_rows) {
-        drawn_spans_->report_to(solved[0].ring());
-    }
-    self_.pump_with(*drawn_spans_, drawn_spans_->lane());
-    return drawn_spans_.get();
+    return drawn_spans_;
 }
 
 void SpanUnit::run() {

@@ -17,11 +17,8 @@ public:
     SpanUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
              const RenderJob& job, int index, int banks);
 
-    /// What the bank reads in place of the crossbar's ring, and the Slicing Unit writes in place of
-    /// the lane, if rows come drawn, nobody else reads them and nobody looks on; nullptr otherwise.
-    /// Before the simulation starts.
-    DrawnSpans* hand_over(Process& bank);
-    DrawnSpans* drawn_spans() const override { return drawn_spans_.get(); }
+    /// If the unit reaches one bank alone.
+    const std::vector<std::unique_ptr<DrawnSpans>>& hand_over(Process& bank) override;
 
 private:
     void end_of_elaboration() override;
@@ -40,7 +37,6 @@ private:
     SpanItem held_;             // the result of the item taken last, while its ring is full
     std::size_t next_port_ = 0; // where it goes; an end goes to all ports in turn
     bool holding_ = false;
-    std::unique_ptr<DrawnSpans> drawn_spans_;
 };
 
 } // namespace degs
