@@ -318,7 +318,7 @@ void Process::pass_writers(FifoBase* const* inputs, std::size_t count, Cycle dat
 
 Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit) {
     for (;;) {
-        const Cycle due = catch_up_writers(inputs, count, from, limit);
+        const Cycle due = asks_ ? catch_up_writers(inputs, count, from, limit) : kNever;
         Cycle known = limit;
         for (std::size_t i = 0; i < count; ++i) {
             if (!inputs[i]->empty()) {
@@ -339,7 +339,9 @@ Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle fr
                 return known;
             }
             if (known != kNever && certain(known)) {
-                pass_writers(inputs, count, known);
+                if (asks_) {
+                    pass_writers(inputs, count, known);
+                }
                 return known;
             }
             if (inputs[i]->writer() != nullptr) {

@@ -163,6 +163,8 @@ public:
         works_asked_ = true;
         inputs_ = std::move(inputs);
     }
+    /// This process reads what an asked body writes.
+    void ask_writers() { asks_ = true; }
     /// The asked body works, so that nothing is known of it but its date.
     void go() { input_count_ = 0; }
     void rest() { input_count_ = inputs_.size(); }
@@ -237,6 +239,7 @@ private:
     Cycle memory_cycles_ = 0;    // waited for the memory
     Pumped* body_ = nullptr;
     bool works_asked_ = false; // body_, see pump_asked()
+    bool asks_ = false;        // somebody else's
     bool to_date_ = false;     // asleep until kernel time has reached a date
     sc_core::sc_event wake_;
     sc_core::sc_event timeout_; // stays announced when the process is woken, see doze_until()

@@ -74,7 +74,8 @@ public:
                    Fidelity fidelity = Fidelity::Exact, const BuildOptions& options = {},
                    Watch watch = Watch::Nothing)
         : timeline_(Timeline::Config{}), time_{ClockDomain(config.clock_ghz), fidelity,
-                                               watch == Watch::Timeline ? &timeline_ : nullptr},
+                                               watch == Watch::Timeline ? &timeline_ : nullptr,
+                                               &activations_},
           job_(make_render_job(frames, config)) {
         EXPECT_EQ(config.problem(), "");
         if (watch != Watch::Nothing) {
@@ -96,6 +97,7 @@ public:
 
 private:
     Timeline timeline_;
+    std::uint64_t activations_ = 0;
     Timebase time_;
     RenderJob job_;
     std::unique_ptr<Engine> engine_;

@@ -102,12 +102,7 @@ inline __attribute__((always_inline)) void DrawnBank::accept() {
 
 // The stream, which has no span to take now, has none before this date, as long as its tiles stay
 // as they are.
-template <DrawnBank::Intake intake>
-inline __attribute__((always_inline)) Cycle
-DrawnBank::next_span_from(const BankStream& stream) const {
-    if constexpr (intake == Intake::Rings) {
-        return 0;
-    }
+inline __attribute__((always_inline)) Cycle DrawnBank::next_span_from(const BankStream& stream) {
     const BankStream::Input& input = stream.inputs.front();
     if (!takes(stream, input)) {
         return kNever;
@@ -122,7 +117,7 @@ inline __attribute__((always_inline)) bool DrawnBank::open_span() {
     if constexpr (intake == Intake::Single) {
         return take_from<intake>(streams_.front());
     }
-    if (now_ < spans_from_) {
+    if (intake == Intake::Drawn && now_ < spans_from_) {
         return false;
     }
     BankStream* const first = next_stream_;
@@ -133,7 +128,9 @@ inline __attribute__((always_inline)) bool DrawnBank::open_span() {
         if (take_from<intake>(stream)) {
             return true;
         }
-        from = std::min(from, next_span_from<intake>(stream));
+        if constexpr (intake == Intake::Drawn) {
+            from = std::min(from, next_span_from(stream));
+        }
     } while (next_stream_ != first);
     spans_from_ = from;
     return false;

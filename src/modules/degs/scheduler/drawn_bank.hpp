@@ -108,8 +108,7 @@ private:
     inline void accept();
     template <Intake intake>
     inline bool open_span();
-    template <Intake intake>
-    inline Cycle next_span_from(const BankStream& stream) const;
+    static inline Cycle next_span_from(const BankStream& stream);
     template <Intake intake>
     inline bool take_from(BankStream& stream);
     template <Intake intake>
@@ -243,7 +242,7 @@ private:
     const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see DrawnRow
     DrawnRow taken_;                                             // a copy, unless its ring keeps it
     BankStream* next_stream_;                                    // whose span is taken next
-    Cycle spans_from_ = 0; // no stream has a span before, as long as all tiles stay as they are
+    Cycle spans_from_ = 0; // for Intake::Drawn: no stream has a span before, if no tile changes
     bool features_full_ = false, no_room_ = false, width_limited_ = false;
     OpenPacket packet_;
     bool ends_tile_ = false;     // it carries the end of a tile

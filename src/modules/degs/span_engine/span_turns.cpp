@@ -19,6 +19,7 @@ SpanTurns::SpanTurns(Process& unit, const std::vector<DrawnSpans*>& streams, Til
         streams_[i].spans = streams[i];
         streams_[i].next = &streams_[(i + 1) % streams.size()];
         streams[i]->take_with(*this);
+        streams[i]->reader()->ask_writers();
         lanes.push_back(&streams[i]->lane());
     }
     unit_.pump_asked(*this, lanes);
@@ -32,7 +33,7 @@ void SpanTurns::run() {
     }
 }
 
-// Until somebody else runs or a place becomes free, another question has the same answer.
+// Until somebody else runs or the bank has taken something, another question has the same answer.
 Cycle SpanTurns::ask() {
     wanted_ = true;
     const std::uint64_t now = unit_.activation();
@@ -92,9 +93,8 @@ inline __attribute__((always_inline)) Cycle SpanTurns::next_known(Stream* change
     const Cycle date = std::max(due_, unit_.local());
     due_ = date;
     for (const Stream& stream : streams_) {
-        const Missing what = missing(stream, date);
-        if (what != Missing::Nothing && !said_by_time(stream, what, date)) {
-            wait_for(stream, what, date);
+        if (const Missing what = missing(stream, date); what != Missing::Nothing) {
+            wait_for(*stream.spans, what, date);
             return kNever;
         }
     }
@@ -118,41 +118,43 @@ inline __attribute__((always_inline)) void SpanTurns::look_at(Stream& stream) {
 // What is not certain about the stream at `date`, up to which it has nothing to do.
 inline __attribute__((always_inline)) SpanTurns::Missing SpanTurns::missing(const Stream& stream,
                                                                             Cycle date) const {
-    if (stream.from > date) {
-        const DrawnSpans& spans = *stream.spans;
-        if (spans.waiting() == 0 && !stream.ending) {
-            return unit_.quiet_beyond(stream.spans->lane(), date) ? Missing::Nothing
-                                                                  : Missing::Item;
-        }
-        const bool sure = stream.from != kNever || (!stream.ending && spans.lane_head() > date) ||
-                          Process::full_beyond(spans, date);
-        return sure ? Missing::Nothing : Missing::Room;
+    DrawnSpans& spans = *stream.spans;
+    if (stream.from <= date) {
+        return stream.ends ? missing_of_ends(spans, date) : Missing::Nothing;
     }
-    return stream.ends ? missing_of_ends(stream, date) : Missing::Nothing;
+    if (spans.waiting() == 0 && !stream.ending) {
+        return is_quiet(spans, date) ? Missing::Nothing : Missing::Item;
+    }
+    const bool sure = stream.from != kNever || (!stream.ending && spans.lane_head() > date) ||
+                      stays_full(spans, date);
+    return sure ? Missing::Nothing : Missing::Room;
 }
 
-SpanTurns::Missing SpanTurns::missing_of_ends(const Stream& stream, Cycle date) const {
-    DrawnSpans& spans = *stream.spans;
-    if (spans.waiting() < kItemsOfEnds && !unit_.quiet_beyond(spans.lane(), date)) {
+SpanTurns::Missing SpanTurns::missing_of_ends(DrawnSpans& spans, Cycle date) const {
+    if (spans.waiting() < kItemsOfEnds && !is_quiet(spans, date)) {
         return Missing::Item;
     }
-    return spans.room() >= kItemsOfEnds || Process::full_beyond(spans, date) ? Missing::Nothing
-                                                                             : Missing::Room;
+    return spans.room() >= kItemsOfEnds || stays_full(spans, date) ? Missing::Nothing
+                                                                   : Missing::Room;
 }
 
-// True if kernel time says what is missing. It does not for a place if the bank, which may sleep
-// since before, acts on what it has been sent meanwhile.
-bool SpanTurns::said_by_time(const Stream& stream, Missing what, Cycle date) const {
-    const DrawnSpans& spans = *stream.spans;
-    return unit_.certain(date) && (what == Missing::Item ||
-                                   spans.reader()->next_action() + spans.release_latency() > date);
+// True if nothing that is not in the lane yet can be taken at `date`.
+inline bool SpanTurns::is_quiet(DrawnSpans& spans, Cycle date) const {
+    return unit_.quiet_beyond(spans.lane(), date) || unit_.certain(date);
+}
+
+// True if no place of the crossbar becomes free up to `date`. What kernel time says holds unless
+// the bank, which may sleep since before, acts on what it has been sent meanwhile.
+bool SpanTurns::stays_full(const DrawnSpans& spans, Cycle date) const {
+    return Process::full_beyond(spans, date) ||
+           (unit_.certain(date) && spans.reader()->next_action() + spans.release_latency() > date);
 }
 
 // Somebody who waits for the unit has it go on as soon as that is possible. A bank that sleeps
 // wakes when kernel time says what comes; a Slicing Unit that has no place does not.
-void SpanTurns::wait_for(const Stream& stream, Missing what, Cycle date) {
-    DrawnSpans& spans = *stream.spans;
+void SpanTurns::wait_for(DrawnSpans& spans, Missing what, Cycle date) {
     unknown_ = what == Missing::Item ? &spans : nullptr;
+    asked_at_ = what == Missing::Item ? asked_at_ : 0;
     const bool full = std::any_of(streams_.begin(), streams_.end(),
                                   [](const Stream& s) { return s.spans->lane().full(); });
     if (!wanted_ && !full) {

@@ -29,7 +29,7 @@ public:
     bool waits_for(const DrawnSpans& lane) const {
         return wanted_ && (unknown_ == nullptr || unknown_ == &lane);
     }
-    /// What its thread does, see Process::remind().
+    /// What its thread does, see Process::wake_at().
     void run();
 
 private:
@@ -48,9 +48,10 @@ private:
     inline Cycle next_known(Stream* changed);
     static inline void look_at(Stream& stream);
     inline Missing missing(const Stream& stream, Cycle date) const;
-    [[gnu::noinline]] Missing missing_of_ends(const Stream& stream, Cycle date) const;
-    bool said_by_time(const Stream& stream, Missing what, Cycle date) const;
-    [[gnu::noinline]] void wait_for(const Stream& stream, Missing what, Cycle date);
+    [[gnu::noinline]] Missing missing_of_ends(DrawnSpans& spans, Cycle date) const;
+    inline bool is_quiet(DrawnSpans& spans, Cycle date) const;
+    bool stays_full(const DrawnSpans& spans, Cycle date) const;
+    [[gnu::noinline]] void wait_for(DrawnSpans& spans, Missing what, Cycle date);
     inline Stream* take(Cycle date);
     [[gnu::noinline]] void pass_ends(Cycle date);
     void pass_end(Stream& stream, Cycle date);
