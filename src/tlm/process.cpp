@@ -154,9 +154,10 @@ void Process::ring_alarms() {
         const Alarm alarm = alarms_[i];
         if (alarm.proven(own)) {
             alarm.place() = FifoBase::kNoAlarm;
+            // Whoever is awake asks again by itself.
             if (Process& asker = alarm.asker(); asker.blocked() || asker.body_ != nullptr) {
                 asker.wake();
-            }                         // else it asks again by itself
+            }
             own = bound(kProofDepth); // who is awake may have moved
         } else {
             alarm_ = std::min(alarm_, alarm.own_date());

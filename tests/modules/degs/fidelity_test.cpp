@@ -96,8 +96,8 @@ TEST_P(PlainRunFidelity, ExactIsStrict) {
 
 INSTANTIATE_TEST_SUITE_P(Random, PlainRunFidelity, ::testing::Range(1000U, 1400U));
 
-/// Designs whose Span Units work when banks ask. The pixels are those of the suites above, so that
-/// the index is odd, with which no image is compared with the reference.
+/// Designs whose Span Units work when banks ask. An odd index says that no image is compared with
+/// the reference: here only dates are new.
 class StreamsRunFidelity : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(StreamsRunFidelity, ExactIsStrict) {

@@ -49,6 +49,7 @@ public:
             if (several_streams) {
                 c.pixel_buffer.bytes *= streams;
                 c.span_buffer.ports.ports = 0;
+                c.gaussian_buffer.temporary = ParameterLife::Sliced;
                 c.span.rows_per_cycle = c.span.cycles_per_row = 1;
             } else {
                 c.scheduler.scan = DomainScan::RoundRobin;

@@ -101,7 +101,7 @@ void DrawnSpans::tell_unit() {
 }
 
 void DrawnSpans::pump() {
-    if (turns_ != nullptr) {
+    if (turns_ != nullptr) { // it takes the rows, once somebody needs what follows
         turns_->has_room();
         if (lane_.full()) {
             turns_->pump();

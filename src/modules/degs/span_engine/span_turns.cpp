@@ -78,8 +78,8 @@ void SpanTurns::go_on() {
     working_ = false;
 }
 
-// The next date at which there is something to do, if what the unit does then is known; else
-// kNever. `changed`: the only stream whose lane or ring is not as it was seen last.
+// Returns the next date at which there is something to do, or kNever if it is not known what the
+// unit does then. `changed` is the only stream whose lane or ring is not as it was seen last.
 inline __attribute__((always_inline)) Cycle SpanTurns::next_known(Stream* changed) {
     look_at(*changed);
     due_ = kNever;

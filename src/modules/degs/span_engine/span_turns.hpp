@@ -29,7 +29,7 @@ public:
     bool waits_for(const DrawnSpans& lane) const {
         return wanted_ && (unknown_ == nullptr || unknown_ == &lane);
     }
-    /// What its thread does, see Process::wake_at().
+    /// The unit's thread runs this. It goes on whenever Process::wake_at() wakes it.
     void run();
 
 private:
