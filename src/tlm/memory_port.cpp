@@ -40,6 +40,7 @@ Completion MemoryPort::access(Process& process, tlm::tlm_command command, std::u
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     const sc_core::sc_time date = clock_->at(process.local());
     sc_core::sc_time delay = date > now ? date - now : sc_core::SC_ZERO_TIME;
+    process.tell(); // the memory may let others run
     out->b_transport(payload, delay);
     payload.clear_extension(&timing_only_);
     payload.clear_extension(&may_answer_late_);

@@ -9,13 +9,14 @@ namespace degs {
 namespace {
 
 // How far next_arrival() follows blocked predecessors for a proof before it falls back to sleeping.
-// The loop Issue Bank -> Packing Buffer -> Blending Array -> feedback needs one step; two cover a
-// block between them.
-constexpr int kProofDepth = 3;
+// From a bank to where tiles come from it is five: Span Unit, Slicing Unit, Splat Fetcher, Tile
+// Dispatcher, Sorting Unit.
+constexpr int kProofDepth = 5;
 
 } // namespace
 
 void Process::sync() {
+    tell();
     if (clock_->mapping() != nullptr) {
         while (clock_->at(local_) > sc_core::sc_time_stamp()) {
             doze_until(clock_->at(local_));
@@ -91,12 +92,11 @@ void Process::sleep_to_date() {
 }
 
 bool Process::full_beyond(const FifoBase& output, Cycle date) {
-    return output.room_horizon(kProofDepth) > date;
+    return output.full_beyond(date, kProofDepth);
 }
 
 Cycle Process::Alarm::own_date() const {
-    const Cycle latency = room ? fifo->release_latency() : fifo->forward_latency();
-    return date > latency ? date - latency : 0;
+    return room ? fifo->released(date) : fifo->written(date);
 }
 
 bool Process::Alarm::proven(Cycle bound) const {
@@ -121,7 +121,8 @@ void Process::set_room_alarm(FifoBase& fifo, Cycle date) {
 }
 
 void Process::set_alarm(const Alarm& alarm) {
-    alarm_ = std::min(alarm_, alarm.own_date());
+    first_alarm_ = std::min(first_alarm_, alarm.own_date());
+    stop_ = next_stop();
     std::size_t& place = alarm.place();
     if (place == FifoBase::kNoAlarm) {
         place = alarms_.size();
@@ -131,14 +132,14 @@ void Process::set_alarm(const Alarm& alarm) {
     }
 }
 
-void Process::pass_alarm(Cycle before, const Cycle* counter) {
+void Process::pass_stop(Cycle before, const Cycle* counter) {
     if (local_ > step_end_) {
         step_end_ = track_->pass(before, local_, counter);
-        alarm_ = no_alarm();
     }
-    if (!alarms_.empty()) {
+    if (body_ != nullptr && !alarms_.empty()) {
         ring_alarms();
     }
+    stop_ = next_stop();
     if (strict_) {
         sync();
     }
@@ -148,8 +149,8 @@ void Process::pass_alarm(Cycle before, const Cycle* counter) {
 // wake each other for ever.
 void Process::ring_alarms() {
     std::size_t kept = 0;
-    alarm_ = no_alarm();
-    Cycle own = bound(kProofDepth);
+    const Cycle own = bound(kProofDepth, first_alarm_);
+    first_alarm_ = kNever;
     for (std::size_t i = 0; i < alarms_.size(); ++i) {
         const Alarm alarm = alarms_[i];
         if (alarm.proven(own)) {
@@ -158,9 +159,8 @@ void Process::ring_alarms() {
             if (Process& asker = alarm.asker(); asker.blocked() || asker.body_ != nullptr) {
                 asker.wake();
             }
-            own = bound(kProofDepth); // who is awake may have moved
         } else {
-            alarm_ = std::min(alarm_, alarm.own_date());
+            first_alarm_ = std::min(first_alarm_, alarm.own_date());
             alarm.place() = kept;
             alarms_[kept++] = alarm;
         }
@@ -192,20 +192,36 @@ void Process::block_on_room(FifoBase& fifo) {
     room_ = nullptr;
 }
 
-Cycle Process::blocked_bound(int depth) const {
-    if (room_ != nullptr) {
-        const Process* reader = room_->reader();
-        if (!room_->full()) {
-            return std::max(local_, room_->free_date());
-        }
-        return reader == nullptr
-                   ? local_
-                   : std::max(local_, reader->bound(depth - 1) + room_->release_latency());
+// Processes that wait for each other in a circle can act at their own dates, as far as the circle
+// says; and of many ways to one process the first one counts.
+Cycle Process::blocked_bound(int depth, Cycle wanted) const {
+    if (question_ != questions_) {
+        question_ = questions_;
+        found_ = local_;
+        found_ = room_ != nullptr ? bound_by_room(depth, wanted) : bound_by_inputs(depth, wanted);
     }
+    return found_;
+}
+
+Cycle Process::bound_by_room(int depth, Cycle wanted) const {
+    if (!room_->full()) {
+        return std::max(local_, room_->free_date());
+    }
+    const Process* const reader = room_->reader();
+    if (reader == nullptr) {
+        return local_;
+    }
+    const Cycle read = reader->bound_again(depth - 1, room_->released(wanted));
+    return std::max(local_, read + room_->release_latency());
+}
+
+// One input that may have an item at `wanted` is enough to stop, and says nothing of the others.
+Cycle Process::bound_by_inputs(int depth, Cycle wanted) const {
+    const Cycle least = std::max(local_, wanted);
     Cycle earliest = limit_;
     const Process* writer = nullptr; // rings of one often lie beside each other
     Cycle bound = 0;
-    for (std::size_t i = 0; i < input_count_ && earliest > local_; ++i) {
+    for (std::size_t i = 0; i < input_count_ && earliest > least; ++i) {
         const FifoBase& fifo = *inputs_[i];
         if (!fifo.empty()) {
             earliest = std::min(earliest, fifo.head_date());
@@ -213,11 +229,11 @@ Cycle Process::blocked_bound(int depth) const {
         }
         if (fifo.writer() != writer) {
             writer = fifo.writer();
-            bound = writer == nullptr ? 0 : writer->bound(depth - 1);
+            bound = writer == nullptr ? 0 : writer->bound_again(depth - 1, fifo.written(wanted));
         }
         earliest = std::min(earliest, writer == nullptr ? 0 : fifo.horizon_after(bound));
     }
-    return std::max(local_, earliest);
+    return earliest > least ? earliest : local_;
 }
 
 // Reads of cycle t may be decided as late as half a cycle after t, so they are certain at t + 1.
@@ -226,7 +242,7 @@ bool Process::gains_room(FifoBase& output) {
     const Cycle after = local_ < release ? 0 : local_ - release + 1;
     while (output.full()) {
         const sc_core::sc_time certain = clock_->at(after);
-        if (strict_ || output.room_horizon(kProofDepth) > local_ ||
+        if (strict_ || output.full_beyond(local_, kProofDepth) ||
             sc_core::sc_time_stamp() >= certain) {
             return false;
         }
@@ -257,7 +273,7 @@ Cycle Process::quiet_until(FifoBase& input, Cycle date) const {
     }
     Process* const writer = input.writer();
     if (input.quiet_until_ <= date && writer != nullptr) {
-        const Cycle bound = writer->bound_beyond(date, kProofDepth);
+        const Cycle bound = writer->bound_beyond(input.written(date), kProofDepth);
         writer->proven_bound_ = std::max(writer->proven_bound_, bound);
         input.quiet_until_ = std::max(input.quiet_until_, input.horizon_after(bound));
     }

@@ -57,8 +57,8 @@ public:
     explicit Process(const Timebase& time)
         : clock_(&time.clock), strict_(time.fidelity == Fidelity::Strict),
           track_(time.timeline == nullptr ? nullptr : &time.timeline->join(*this)),
-          step_end_(track_ == nullptr ? kNever : 0), activations_(time.activations),
-          alarm_(no_alarm()) {
+          step_end_(track_ == nullptr ? kNever : 0), stop_(next_stop()),
+          activations_(time.activations) {
         wake_or_timeout_ |= wake_;
         wake_or_timeout_ |= timeout_;
         if (clock_->mapping() != nullptr) {
@@ -78,8 +78,8 @@ public:
     void advance_to(Cycle date) {
         const Cycle before = local_;
         local_ = std::max(local_, date);
-        if (local_ > alarm_) {
-            pass_alarm(before, nullptr);
+        if (local_ > stop_) {
+            pass_stop(before, nullptr);
         }
     }
     /// Moves the local date forward, and `counter` counts the cycles, for the timeline with their
@@ -87,8 +87,8 @@ public:
     void advance_to(Cycle date, Cycle& counter) {
         const Cycle before = local_;
         local_ = std::max(local_, date);
-        if (local_ > alarm_) {
-            pass_alarm(before, &counter);
+        if (local_ > stop_) {
+            pass_stop(before, &counter);
         }
         counter += local_ - before;
     }
@@ -136,14 +136,19 @@ public:
 
     /// A lower bound of the date at which this process can act again, derived from up to `depth`
     /// blocked predecessors. It never falls, but is too high while a Pumped body has taken an item
-    /// and not yet written what follows from it.
-    Cycle bound(int depth) const {
-        return depth == 0 || asking_ || !blocked() ? local_ : blocked_bound(depth);
+    /// and not yet written what follows from it. If it does not lie beyond `wanted`, it need not be
+    /// the highest that could be derived.
+    Cycle bound(int depth, Cycle wanted = 0) const {
+        if (depth == 0 || asking_ || !blocked()) {
+            return local_;
+        }
+        ++questions_;
+        return blocked_bound(depth, wanted);
     }
-    /// bound(), or an earlier answer of it if that lies beyond `date`, too: many ask about the same
-    /// process.
-    Cycle bound_beyond(Cycle date, int depth) const {
-        return proven_bound_ > date ? proven_bound_ : bound(depth);
+    /// bound(), or an earlier answer of it if that lies beyond `wanted`, too: many ask about the
+    /// same process.
+    Cycle bound_beyond(Cycle wanted, int depth) const {
+        return proven_bound_ > wanted ? proven_bound_ : bound(depth, wanted);
     }
 
     // For FifoBase: blocking on one ring, and the wake-up of whoever is blocked.
@@ -205,29 +210,38 @@ public:
         }
     }
     /// Wakes `fifo`'s reader as soon as this process can prove that it will write nothing readable
-    /// at or before `date` (checked when the local date passes and when this process blocks).
+    /// at or before `date`. That is looked at when this process is about to sleep: until then it
+    /// proves more and more, and whoever wants to know cannot run.
     void set_alarm(FifoBase& fifo, Cycle date);
     /// Wakes `fifo`'s writer as soon as this process, its reader, can prove that it will free no
     /// cell at or before `date`.
     void set_room_alarm(FifoBase& fifo, Cycle date);
 
 private:
-    Cycle blocked_bound(int depth) const;
+    Cycle blocked_bound(int depth, Cycle wanted) const;
+    Cycle bound_by_room(int depth, Cycle wanted) const;
+    Cycle bound_by_inputs(int depth, Cycle wanted) const;
+    /// bound(), within the question that is being answered.
+    Cycle bound_again(int depth, Cycle wanted) const {
+        return depth == 0 || asking_ || !blocked() ? local_ : blocked_bound(depth, wanted);
+    }
     bool arrived_after_asking(FifoBase& input);
     Cycle quiet_until(FifoBase& input, Cycle date) const;
     Cycle catch_up_writers(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit);
     void look_at(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit);
     static void pass_writers(FifoBase* const* inputs, std::size_t count, Cycle date);
-    /// Date beyond which advance_to() has more to do, without alarms: strict processes sleep to
-    /// each date.
-    Cycle no_alarm() const { return strict_ ? 0 : step_end_; }
+    /// Date beyond which advance_to() has more to do: strict processes sleep to each date, and
+    /// those without a thread never sleep.
+    Cycle next_stop() const {
+        return strict_ ? 0 : std::min(step_end_, body_ == nullptr ? kNever : first_alarm_);
+    }
     void sleep();
     void sleep_until_known(const Completion& answer);
     /// Sleeps until woken, at the longest until kernel time `date` or wake_at(). May return without
     /// any of them.
     void doze_until(const sc_core::sc_time& date);
-    /// The work of advance_to() beyond alarm_; `counter` will count the time since `before`.
-    void pass_alarm(Cycle before, const Cycle* counter);
+    /// The work of advance_to() beyond stop_; `counter` will count the time since `before`.
+    void pass_stop(Cycle before, const Cycle* counter);
     void ring_alarms();
 
     const ClockDomain* clock_;
@@ -235,6 +249,7 @@ private:
     Cycle local_ = 0;
     ProcessTrack* track_;
     Cycle step_end_;             // last date of the timeline's present step; kNever without one
+    Cycle stop_;                 // see next_stop()
     std::uint64_t* activations_; // of all threads together, see Timebase
     Cycle memory_cycles_ = 0;    // waited for the memory
     Pumped* body_ = nullptr;
@@ -252,7 +267,12 @@ private:
     FifoBase* room_ = nullptr;
     bool asking_ = false;    // blocked in gains_room(): may act again at its own date
     Cycle proven_bound_ = 0; // of bound(), see quiet_until()
-    // Others that want to know when the local date passes.
+    // A question about a bound looks at each process once: of all processes together, the last one
+    // that looked at this process, and what it found, which is local_ as long as it goes on.
+    static inline std::uint64_t questions_ = 0;
+    mutable std::uint64_t question_ = 0;
+    mutable Cycle found_ = 0;
+    // Others that want to know as soon as this process proves something.
     struct Alarm {
         FifoBase* fifo = nullptr;
         Cycle date = 0;         ///< wanted: proof that nothing dated <= this is still to come
@@ -264,7 +284,7 @@ private:
         std::size_t& place() const; ///< where the ring keeps that of its alarm in alarms_
     };
     void set_alarm(const Alarm& alarm);
-    Cycle alarm_; // the earliest of them, if any
+    Cycle first_alarm_ = kNever; // the earliest own_date() of them
     std::vector<Alarm> alarms_;
 };
 
@@ -297,18 +317,26 @@ public:
     Cycle horizon(int depth) const {
         return writer_ == nullptr ? 0 : horizon_after(writer_->bound(depth));
     }
-    /// horizon(), or less if that lies beyond `date`, too.
+    /// horizon(), or less if that lies beyond `date`, too; if horizon() does not, anything less.
     Cycle horizon_beyond(Cycle date, int depth) const {
-        return writer_ == nullptr ? 0 : horizon_after(writer_->bound_beyond(date, depth));
+        return writer_ == nullptr ? 0 : horizon_after(writer_->bound_beyond(written(date), depth));
+    }
+    /// Last date at which something is written that can be read at `date`; 0 if there is none.
+    Cycle written(Cycle date) const {
+        return date > forward_latency_ ? date - forward_latency_ : 0;
+    }
+    /// Last date at which something is read whose cell is free at `date`; 0 if there is none.
+    Cycle released(Cycle date) const {
+        return date > release_latency_ ? date - release_latency_ : 0;
     }
     /// horizon() where the writer cannot act before `bound`.
     Cycle horizon_after(Cycle bound) const {
         return std::min(bound + forward_latency_, late_from_);
     }
-    /// First date at which a cell could be free, of a FIFO that is full as far as the host has
-    /// come.
-    Cycle room_horizon(int depth) const {
-        return reader_ == nullptr ? 0 : reader_->bound(depth) + release_latency_;
+    /// True if no cell can be free at `date`, of a FIFO that is full as far as the host has come.
+    bool full_beyond(Cycle date, int depth) const {
+        return reader_ != nullptr &&
+               reader_->bound(depth, released(date)) + release_latency_ > date;
     }
     std::size_t depth() const { return depth_; }
     virtual const char* fifo_name() const = 0;
