@@ -173,7 +173,8 @@ public:
     /// The asked body works, so that nothing is known of it but its date.
     void go() { input_count_ = 0; }
     void rest() { input_count_ = inputs_.size(); }
-    /// Tells those who wait for a proof what a resting body proves.
+    /// Tells those who wait for a proof what this process proves. A thread does so before it
+    /// sleeps, an asked body when it rests, others without a thread when their dates pass.
     void tell() {
         if (!alarms_.empty()) {
             ring_alarms();
@@ -210,8 +211,8 @@ public:
         }
     }
     /// Wakes `fifo`'s reader as soon as this process can prove that it will write nothing readable
-    /// at or before `date`. That is looked at when this process is about to sleep: until then it
-    /// proves more and more, and whoever wants to know cannot run.
+    /// at or before `date`, see tell(). Before that it proves more and more, and whoever wants to
+    /// know cannot run.
     void set_alarm(FifoBase& fifo, Cycle date);
     /// Wakes `fifo`'s writer as soon as this process, its reader, can prove that it will free no
     /// cell at or before `date`.
