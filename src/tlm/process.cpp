@@ -48,7 +48,7 @@ void Process::show(const sc_core::sc_object& block, const Cycle& busy, int units
 
 void Process::finish() {
     local_ = kNever;
-    ring_alarms();
+    tell();
 }
 
 void Process::sleep() {
@@ -61,7 +61,7 @@ void Process::sleep() {
 // behind.
 void Process::sleep_until_known(const Completion& answer) {
     answer.when_known([this](Cycle /*date*/) { wake(); });
-    ring_alarms();
+    tell();
     while (!answer.known()) {
         sleep();
     }
@@ -136,8 +136,8 @@ void Process::pass_stop(Cycle before, const Cycle* counter) {
     if (local_ > step_end_) {
         step_end_ = track_->pass(before, local_, counter);
     }
-    if (body_ != nullptr && !alarms_.empty()) {
-        ring_alarms();
+    if (body_ != nullptr) {
+        tell();
     }
     stop_ = next_stop();
     if (strict_) {
@@ -176,7 +176,7 @@ void Process::block_on_item(FifoBase& fifo) {
     inputs_.front() = &fifo;
     input_count_ = 1;
     limit_ = kNever;
-    ring_alarms(); // blocked now: our bound may reach further than our date
+    tell(); // blocked now: our bound may reach further than our date
     sleep();
     input_count_ = 0;
 }
@@ -187,7 +187,7 @@ void Process::block_on_room(FifoBase& fifo) {
                                ": a process without a thread wrote to a full ring");
     }
     room_ = &fifo;
-    ring_alarms();
+    tell();
     sleep();
     room_ = nullptr;
 }
@@ -248,9 +248,7 @@ bool Process::gains_room(FifoBase& output) {
         }
         output.reader()->set_room_alarm(output, local_);
         asking_ = true;
-        if (!alarms_.empty()) {
-            ring_alarms();
-        }
+        tell();
         doze_until(certain);
         asking_ = false;
     }
@@ -370,9 +368,7 @@ Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle fr
         }
         look_at(inputs, count, from, limit);
         input_count_ = count;
-        if (!alarms_.empty()) {
-            ring_alarms();
-        }
+        tell();
         if (const Cycle date = std::min(known, due); date == kNever) {
             sleep_to_date();
         } else {

@@ -139,11 +139,8 @@ public:
     /// and not yet written what follows from it. If it does not lie beyond `wanted`, it need not be
     /// the highest that could be derived.
     Cycle bound(int depth, Cycle wanted = 0) const {
-        if (depth == 0 || asking_ || !blocked()) {
-            return local_;
-        }
         ++questions_;
-        return blocked_bound(depth, wanted);
+        return bound_again(depth, wanted);
     }
     /// bound(), or an earlier answer of it if that lies beyond `wanted`, too: many ask about the
     /// same process.
