@@ -10,17 +10,16 @@ mapfile -t pages < <(find . -name '*.md' -not -path './build/*' -not -path './ou
 links=0
 dead=0
 
-for page in "${pages[@]}"; do
-    # [text](target), ![text](target "title") and [text](target#anchor)
-    while IFS=: read -r line target; do
-        target=${target#*\](}
-        target=${target%%[ \")#]*}
-        [[ -n $target && $target != *://* && $target != mailto:* ]] || continue
-        links=$((links + 1))
-        [[ -e $(dirname "$page")/$target ]] && continue
-        echo "${page#./}:$line: $target does not exist"
-        dead=$((dead + 1))
-    done < <(grep -noE '\]\([^)]+\)' "$page" || true)
-done
+# [text](target), ![text](target "title") and [text](target#anchor); one grep for all pages, and no
+# process for a link.
+while IFS=: read -r page line target; do
+    target=${target#*\](}
+    target=${target%%[ \")#]*}
+    [[ -n $target && $target != *://* && $target != mailto:* ]] || continue
+    links=$((links + 1))
+    [[ -e ${page%/*}/$target ]] && continue
+    echo "${page#./}:$line: $target does not exist"
+    dead=$((dead + 1))
+done < <(grep -HnoE '\]\([^)]+\)' "${pages[@]}" || true)
 [[ $dead -eq 0 ]] || { echo "links: $dead of $links are dead"; exit 1; }
 echo "links: all $links of ${#pages[@]} pages lead somewhere"

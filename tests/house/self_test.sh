@@ -5,13 +5,13 @@
 set -euo pipefail
 
 check=$(realpath "$(dirname "${BASH_SOURCE[0]}")")/house_check.sh
-tree=$(mktemp -d)
-trap 'rm -rf "$tree"' EXIT
+places=$(mktemp -d)
+trap 'rm -rf "$places"' EXIT
+tree=$places/tree
 licence='// SPDX-License-Identifier: Apache-2.0'
 failures=0
 
-clean_tree() {
-    rm -rf "${tree:?}"/*
+make_tree() {
     mkdir -p "$tree"/include/degs "$tree"/src/{base,config,splat,scene,tlm,dram,modules,baselines/gscore,platform} "$tree/src/splat/wing" "$tree/sim" "$tree/tests/house"
     printf '%s\n' "$licence" '#include <vector>' '#include "base/error.hpp"' >"$tree/src/splat/a.hpp"
     printf '%s\n' "$licence" '#include "splat/a.hpp"' 'int s = snprintf(b, 2, "x");' >"$tree/src/scene/a.cpp"
@@ -24,6 +24,13 @@ clean_tree() {
     printf '%s\n' "$licence" '#include "splat/a.hpp"' >"$tree/src/splat/wing/b.hpp"
     printf '%s\n' "$licence" '#include <tlm_utils/simple_target_socket.h>' '#include "degs/b.hpp"' >"$tree/include/degs/a.hpp"
     "$(dirname "$check")/folders.py" "$tree" --print >"$tree/tests/house/folders.txt"
+}
+make_tree
+cp -r "$tree" "$places/clean"
+
+clean_tree() {
+    rm -rf "$tree"
+    cp -r "$places/clean" "$tree"
 }
 
 # finds RULE FILE LINE TEXT: after TEXT is appended to FILE, RULE must fail there and say so.
@@ -59,6 +66,7 @@ finds public include/degs/a.hpp 4 '#include "config/config.hpp"'
 finds public include/degs/a.hpp 4 '#include <dram/timing.hpp>'
 finds public include/degs/a.hpp 4 '#include "degs/config/config.hpp"'
 finds folders include/degs/a.hpp 4 '#include "splat/a.hpp"'
+finds units src/scene/a.cpp 4 '#include "scene/b.cpp"'
 finds systemc src/config/a.hpp 2 '#include <systemc>'
 finds systemc src/splat/a.hpp 4 '#include <systemc>'
 finds systemc src/scene/a.cpp 4 '#include <tlm.h>'
