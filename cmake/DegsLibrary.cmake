@@ -17,7 +17,7 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
 endif()
 target_compile_options(degs_flags INTERFACE -ffp-contract=off -fno-tree-slp-vectorize
                        -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-                       -Wnon-virtual-dtor $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>
+                       -Wnon-virtual-dtor -Wno-psabi $<$<CXX_COMPILER_ID:Clang>:-Wno-overloaded-virtual>
                        $<$<BOOL:${DEGS_WARNINGS_AS_ERRORS}>:-Werror>)
 target_include_directories(degs_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
 

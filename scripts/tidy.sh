@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# tidy.sh [--alone]: clang-tidy over src/ and sim/, one process per core. Wants no build: it takes the
-# compile commands of a configuration of its own, in which 16 sources of a target are one unit, as in
-# the release build: most of the time goes into headers, and units take a quarter of it. With --alone,
-# every source is a unit, so that an include that is missing is an error. A clean unit is remembered
-# under build/tidy by a hash of its sources, of every project header behind them and of the checks,
-# and is not read again until one of them changes.
+# tidy.sh [--alone]: clang-tidy over src/ and sim/, one process per core. Wants no build: it takes
+# the compile commands of a configuration of its own, in which 16 sources of a target are one unit,
+# as in the release build: most of the time goes into headers, and units take a quarter of it. With
+# --alone, every source is a unit, so that an include that is missing is an error. A clean unit is
+# remembered under build/tidy by a hash of its sources, of every project header behind them and of
+# the checks, and is not read again until one of them changes.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

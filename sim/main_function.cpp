@@ -5,7 +5,9 @@
 
 #include <systemc>
 
-#ifdef __SANITIZE_ADDRESS__
+#include "base/sanitizers.hpp"
+
+#if DEGS_ADDRESS_SANITIZER
 /// Asked by the leak sanitizer at exit. It cannot read the protected pages between the stacks of
 /// SystemC's threads, so a program that has run a simulation is not searched for leaks.
 extern "C" int __lsan_is_turned_off() { // NOLINT(bugprone-reserved-identifier)

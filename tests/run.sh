@@ -56,15 +56,8 @@ step "asan" "build (preset asan)"
 cmake --preset asan
 cmake --build --preset asan -j "$jobs"
 
-step "asan tests" "hostile inputs and small runs under the sanitizers"
+step "asan tests" "hostile inputs, fuzz targets and small runs under the sanitizers"
 ctest --preset asan -j "$tests" --no-tests=error
-
-if command -v clang++ >/dev/null; then
-    step "fuzz" "fuzz targets of the readers (preset fuzz)"
-    cmake --preset fuzz
-    cmake --build --preset fuzz -j "$jobs"
-    ctest --preset fuzz -j "$jobs" --no-tests=error
-fi
 
 step "all tests" "all tests, house rules, formatting"
 ctest --preset release -j "$tests" --no-tests=error -LE lint

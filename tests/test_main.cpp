@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <systemc>
 
+#include "base/sanitizers.hpp"
+
 namespace {
 /// SystemC prints its banner before sc_main; set early, it spares builds (test discovery) and
 /// tests.
@@ -14,7 +16,7 @@ const int kNoBanner = ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
 const int kNoCache = ::setenv("DEGS_CACHE", "", 1);
 } // namespace
 
-#ifdef __SANITIZE_ADDRESS__
+#if DEGS_ADDRESS_SANITIZER
 /// As in sim/main_function.cpp: the leak sanitizer cannot read the stacks of SystemC's threads.
 extern "C" int __lsan_is_turned_off() { // NOLINT(bugprone-reserved-identifier)
     return sc_core::sc_start_of_simulation_invoked() ? 1 : 0;

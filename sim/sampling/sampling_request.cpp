@@ -52,10 +52,10 @@ SamplingRequest parse_within(const std::string& text) {
     if (colon != std::string::npos) {
         request.measure = path_of(text.substr(0, colon));
     }
-    constexpr double kLeast = 0.0001, kMost = 0.5;
+    constexpr double kLeastSampled = 0.0001, kMostSampled = 0.5;
     const std::optional<double> share =
         share_of(colon == std::string::npos ? text : text.substr(colon + 1));
-    if (!share || !(*share >= kLeast && *share <= kMost)) {
+    if (!share || !(*share >= kLeastSampled && *share <= kMostSampled)) {
         throw InputError("--within is '" + text +
                          "', but must be a percentage from 0.01% to 50%, as in 1% or useful:2%.");
     }

@@ -57,7 +57,7 @@ FrameWorkload opaque_frame(int tile_size) {
 }
 
 // Splats of cancelled tiles are still on their way when the last pixel is in memory.
-TEST(SmallRunMemoryWindow, ReadsOfCancelledTilesProlongIt) {
+TEST(MemoryWindow, ReadsOfCancelledTilesProlongIt) {
     gscore::Config config;
     config.memory.model = MemoryModel::Lpddr5;
     config.traffic.burst_bytes = 4096;

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "base/sanitizers.hpp"
 #include "degs/design.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
@@ -19,11 +20,7 @@ std::uint64_t resident_bytes() {
     statm >> pages >> resident;
     return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
+constexpr bool kSanitized = DEGS_ADDRESS_SANITIZER != 0;
 
 /// A shipped design, perhaps changed.
 struct KeptDesign {

@@ -254,7 +254,7 @@ void expect_exact(const Range& range, const Style& style) {
     EXPECT_LT(range.most, 1.02) << style.name << " " << style.quantum_ns;
 }
 
-TEST(SmallRunDecoupling, ChangesLittleBehindASorter) {
+TEST(DecouplingOfSmallFrames, ChangesLittleBehindASorter) {
     const std::vector<Picture> pictures = five_pictures(160, "2000");
     Platforms platforms(Order::Calls, pictures);
     sc_core::sc_start(sc_core::SC_ZERO_TIME);

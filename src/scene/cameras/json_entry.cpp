@@ -4,8 +4,11 @@
 #include <cmath>
 
 namespace degs {
+namespace {
 
 using Json = nlohmann::json;
+
+} // namespace
 
 const Json& JsonEntry::at(const char* key) const {
     const auto found = json_.find(key);

@@ -320,7 +320,7 @@ TEST_P(SmallRunEnergy, OfTheArrayAloneLeavesOutWhatWasNotBuilt) {
     EXPECT_GT(energy["total_nj"].get<double>(), 0);
 }
 
-TEST(SmallRunEnergyOfBinning, IsLeftOutOfTheArrayAlone) {
+TEST(EnergyOfBinning, IsLeftOutOfTheArrayAlone) {
     for (const char* design : {"degs-64", "gscore-64", "gbu-64", "orange-o1"}) {
         SCOPED_TRACE(design);
         for (const bool alone : {false, true}) {

@@ -43,7 +43,7 @@ TEST(HostileNumbers, UnsignedNumbersHaveNoSign) {
     EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
-TEST(HostileNumbers, RealNumbersAreFinite) {
+TEST(NumbersOfOptions, RealNumbersAreFinite) {
     const Folder folder;
     for (const char* value : {"nan", "inf", "-inf", "NAN", "0x1p3", "1e999", "1,5", ""}) {
         const std::vector<std::pair<std::vector<std::string>, std::string>> commands{

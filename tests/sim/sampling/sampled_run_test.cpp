@@ -37,9 +37,9 @@ double number(const json& report, const std::string& path) {
     return place.get<double>();
 }
 
-class SmallRunSampled : public ::testing::TestWithParam<const char*> {};
+class SampledRun : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(SmallRunSampled, AgreesWithTheExactRun) {
+TEST_P(SampledRun, AgreesWithTheExactRun) {
     const json exact = sampled_report_of(GetParam(), {});
     const json sample = sampled_report_of(GetParam(), {"--fidelity", "sampled:40%"});
     const json& facts = sample["sampling"];
@@ -76,7 +76,7 @@ TEST_P(SmallRunSampled, AgreesWithTheExactRun) {
 }
 
 // A sample that takes in every run of tiles has no scatter: what is left is what their order costs.
-TEST_P(SmallRunSampled, CostsNothingInAnotherOrder) {
+TEST_P(SampledRun, CostsNothingInAnotherOrder) {
     const double exact = number(sampled_report_of(GetParam(), {}), "timing.cycles");
     const json all = sampled_report_of(GetParam(), {"--fidelity", "sampled:99.9%"});
     EXPECT_EQ(all["sampling"]["tiles_measured"], all["sampling"]["tiles"]);
@@ -84,10 +84,9 @@ TEST_P(SmallRunSampled, CostsNothingInAnotherOrder) {
     EXPECT_NEAR(number(all, "timing.cycles"), exact, 1e-3 * exact);
 }
 
-INSTANTIATE_TEST_SUITE_P(Designs, SmallRunSampled,
-                         ::testing::Values("degs-64", "gscore-64", "degs-16"));
+INSTANTIATE_TEST_SUITE_P(Designs, SampledRun, ::testing::Values("degs-64", "gscore-64", "degs-16"));
 
-TEST(SmallRunSampledOnce, FollowsItsSeedAndNothingElse) {
+TEST(SampledRunOnce, FollowsItsSeedAndNothingElse) {
     const auto numbers = [](const std::string& seed) {
         json report = sampled_report_of("gscore-64", {"--fidelity", "sampled:30%", "--seed", seed});
         report.erase("host");
@@ -137,7 +136,7 @@ TEST(SmallRunSampledOnce, IsExactWhereASampleCannotBeNarrowEnough) {
     expect_exact({"--within", "0.1%"}, "is not to be had");
 }
 
-TEST(SmallRunSampledOnce, IsExactWhereTilesDependOnEachOther) {
+TEST(SampledRunOnce, IsExactWhereTilesDependOnEachOther) {
     const std::pair<const char*, std::vector<std::string>> designs[] = {
         {"clusters=1", {"degs-64", "clusters=2"}},
         {"clusters=1", {"gcc-64", "clusters=2"}},
@@ -178,7 +177,7 @@ TEST(SmallRunSampledOnce, IsExactWhereMemoryIsContended) {
     }
 }
 
-TEST(SmallRunSampledOnce, TakesGbuWithoutItsReuseCacheOnly) {
+TEST(SampledRunOnce, TakesGbuWithoutItsReuseCacheOnly) {
     const std::vector<std::string> sampled{"--fidelity", "sampled:40%"};
     const Folder folder;
     const Outcome cached = degs(small_run("gbu-64", folder / "cached", sampled));
@@ -218,7 +217,7 @@ TEST_P(TooFewTiles, AreAllSimulated) {
 
 INSTANTIATE_TEST_SUITE_P(Widths, TooFewTiles, ::testing::Values("1", "20", "200"));
 
-TEST(SmallRunSampledOnce, GivesComparisonsAndStudiesTheirIntervals) {
+TEST(SampledRunOnce, GivesComparisonsAndStudiesTheirIntervals) {
     const Folder folder;
     const Outcome compared =
         degs({"compare", config("gscore-64"), config("degs-64"), "--scene",

@@ -55,7 +55,7 @@ TEST(SmallRunBlockLog, EndedPixelsAreKnownAfterTheWriteBack) {
 }
 
 // The lanes that Slicing Units feed are those from which Span Units take rows.
-TEST(SmallRunBlockLog, RowsOfTheSlicingUnitsAreThoseOfTheSpanUnits) {
+TEST(BlockLog, RowsOfTheSlicingUnitsAreThoseOfTheSpanUnits) {
     const BlockLog slicing = logged(kSmall, "degs-64", "slicing:0");
     std::size_t rows = 0;
     for (int unit = 0; unit < 8; ++unit) {

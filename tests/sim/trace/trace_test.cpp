@@ -74,7 +74,7 @@ TraceRun traced(const Folder& folder, const Traced& design, std::vector<std::str
 /// Reads the file as a viewer does: a counter holds its value until its next event.
 class Reader {
 public:
-    explicit Reader(const json& trace) : trace_(trace) {
+    explicit Reader(const json& trace) {
         const double per_us = 1e3 * trace["otherData"]["clock_ghz"].get<double>();
         std::map<std::pair<int, std::string>, std::pair<double, double>> last;
         for (const json& event : trace["traceEvents"]) {
@@ -122,7 +122,6 @@ public:
     }
 
 private:
-    const json& trace_;
     std::map<std::pair<int, int>, std::string> names_;
     std::map<std::pair<int, std::string>, double> integrals_;
     std::map<std::string, std::map<std::string, std::uint64_t>> states_;
