@@ -1,67 +1,59 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds and runs all tests, also under the sanitizers. Runs from any
-# directory; stops at the first step that fails, ends with the summary of CTest and the time of each
-# step, which must not be above its ceiling (house/times.py). Static analysis takes as long again:
-# scripts/tidy.sh.
+# run.sh [--all]: installs what is missing, builds, and runs the core suite: all block suites, laws,
+# hard cases, the first draws of each random suite, the program, its package and Python. With --all
+# also what takes long: sanitizers and fuzz targets, all draws, RTL and synthesis, projects outside,
+# clusters, containers, documents, benchmarks. Runs from any directory, stops at the first step that
+# fails, and ends with the time of each step. Static analysis is scripts/tidy.sh.
 set -euo pipefail
 
+case "${1:-} $#" in
+    ' 0') all= ;;
+    '--all 1') all=1 ;;
+    *) echo "usage: run.sh [--all]" >&2; exit 2 ;;
+esac
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 jobs=${DEGS_JOBS:-2}
 tests=$((jobs + 1)) # at a time: some of them wait for servers or for the clock
-mkdir -p build
-log=build/times.csv # of this run, complete or not
-echo "step,seconds,processor_s,others,processors" >"$log"
-marks=$(mktemp)
-trap 'rm -f "$marks"' EXIT
 
-# now: the seconds of the clock, those of a processor that this script used, and those that all of
-# the machine used. `times` would start from zero in a subshell.
-now() {
-    times >"$marks"
-    awk -v clock="$EPOCHREALTIME" -v ticks="$(getconf CLK_TCK)" '
-        function seconds(text, parts) { split(text, parts, /[ms]/); return 60 * parts[1] + parts[2] }
-        FNR == NR { own += seconds($1) + seconds($2); next }
-        /^cpu / { print clock, own, ($2 + $3 + $4 + $7 + $8 + $9) / ticks }' "$marks" /proc/stat >"$marks.now"
-    mv "$marks.now" "$marks"
-    read -r clock own all <"$marks"
-}
-name=
-# end_step: writes what the step took into the log.
-end_step() {
-    local clock own all
-    now
-    [[ ! $name ]] || awk -v step="$name" -v processors="$(nproc)" -v a="$began" -v b="$clock $own $all" 'BEGIN {
-        split(a, before); split(b, after)
-        for (i = 1; i <= 3; ++i) d[i] = after[i] - before[i]
-        others = (d[3] - d[2]) / d[1]
-        printf "%s,%.1f,%.1f,%.2f,%d\n", step, d[1], d[2], (others > 0 ? others : 0), processors }' >>"$log"
-    began="$clock $own $all"
-}
-# step NAME WORDS: what follows is a step of the log and of the table of ceilings.
+name= began= times=()
+# step NAME: what follows is a step, whose time is printed at the end.
 step() {
-    end_step
-    name=$1
-    echo "== $(date +%M:%S -u -d "@$SECONDS") $2"
+    [[ ! $name ]] || times+=("$name $((SECONDS - began)) s")
+    name=$1 began=$SECONDS
+    [[ ! $name ]] || echo "== $(date -u -d "@$SECONDS" +%M:%S) $name"
 }
 
-step "packages" "packages"
+step "packages"
 scripts/install.sh --tests
 
-step "release" "build (preset release)"
-cmake --preset release -DDEGS_BUILD_TESTS=ON
+step "build"
+cmake --preset release -DDEGS_BUILD_TESTS=ON -DDEGS_ALL_TESTS=OFF
 cmake --build --preset release -j "$jobs"
 
-step "asan" "build (preset asan)"
-cmake --preset asan
-cmake --build --preset asan -j "$jobs"
+step "core suite"
+ctest --preset release -j "$tests" --no-tests=error
 
-step "asan tests" "hostile inputs, fuzz targets and small runs under the sanitizers"
-ctest --preset asan -j "$tests" --no-tests=error
+if [[ $all ]]; then
+    step "build of what takes long"
+    cmake --preset release -DDEGS_ALL_TESTS=ON
+    cmake --build --preset release -j "$jobs"
 
-step "all tests" "all tests, house rules, formatting"
-ctest --preset release -j "$tests" --no-tests=error -LE lint
-end_step
-echo "== $(date +%M:%S -u -d "@$SECONDS") time of each step, from $log"
-# Another machine may be slower than that of the ceilings: DEGS_TIMES=strict makes them an error.
-tests/house/times.py "$log" || [[ ${DEGS_TIMES:-} != strict ]]
+    step "what takes long"
+    ctest --preset all -j "$tests" --no-tests=error
+
+    step "build with sanitizers"
+    cmake --preset asan
+    cmake --build --preset asan -j "$jobs"
+
+    step "hostile inputs, small runs and fuzz targets under the sanitizers"
+    ctest --preset asan -j "$tests" --no-tests=error
+fi
+step ""
+echo "== $(date -u -d "@$SECONDS" +%M:%S) done"
+printf '%s\n' "${times[@]}"
+if [[ ! $all ]]; then
+    left=$(ctest --test-dir build/release -N -L '^all$' | sed -n 's/^Total Tests: //p')
+    echo "Left out: $left tests that take long, and those that need a build of their own: sanitizers and"
+    echo "fuzz targets, RTL, benchmarks, an accelerator from outside. tests/run.sh --all runs them, too."
+fi
