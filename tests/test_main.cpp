@@ -71,12 +71,14 @@ std::vector<const TestInfo*> selected_tests() {
     return tests;
 }
 
-/// A line per suite: its name, and how many tests it has.
-int print_suites() {
-    const testing::UnitTest& all = *testing::UnitTest::GetInstance();
-    for (int i = 0; i < all.total_test_suite_count(); ++i) {
-        const testing::TestSuite& suite = *all.GetTestSuite(i);
-        std::printf("%s %d\n", suite.name(), suite.total_test_count());
+/// A line per suite that has tests: its name, and how many.
+int print_suites(const std::vector<const TestInfo*>& tests) {
+    for (std::size_t begin = 0, end = 0; begin < tests.size(); begin = end) {
+        const std::string suite = tests[begin]->test_suite_name();
+        while (end < tests.size() && suite == tests[end]->test_suite_name()) {
+            ++end;
+        }
+        std::printf("%s %zu\n", suite.c_str(), end - begin);
     }
     return 0;
 }
@@ -159,10 +161,10 @@ int sc_main(int argc, char* argv[]) {
     if (kNoBanner != 0 || kNoCache != 0) {
         return 1;
     }
-    if (argc == 2 && std::strcmp(argv[1], "--suites") == 0) {
-        return print_suites();
-    }
     const std::vector<const TestInfo*> tests = selected_tests();
+    if (argc == 2 && std::strcmp(argv[1], "--suites") == 0) {
+        return print_suites(tests);
+    }
     if (tests.size() != 1 && !GTEST_FLAG_GET(list_tests)) {
         return run_each(tests);
     }

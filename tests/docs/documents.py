@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""documents.py PROGRAM [--slow] [--update] [--list] [PAGE...]: tries the commands of README.md and docs/*.md.
+"""documents.py PROGRAM [--slow] [--update] [--list] [--forms] [PAGE...]: tries the commands of README.md and docs/*.md.
 
 docs/documents.md explains the conventions. Blocks of a page run one after the other in a folder of their own that
-looks like the repository. Prints what fails as "page:line: reason"; with --update, shown output is written anew.
+looks like the repository. Prints what fails as "page:line: reason"; with --update, shown output is written anew. With
+--forms no command runs: only that commands and options within sentences exist, and that lines are wrapped.
 """
 
 import argparse
@@ -157,7 +158,7 @@ def rewrite(block, lines):
 def try_page(page, program, options):
     """Reasons why commands of a page are wrong, and the number of blocks tried."""
     blocks = blocks_of(page)
-    due = [block for block in blocks if is_due(block, options.slow)]
+    due = [block for block in blocks if is_due(block, options.slow) and not options.forms]
     if not due or options.list:
         for block in due:
             print(f"{block.place()}: {' '.join(block.lines)[:100]}")
@@ -229,7 +230,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program", type=Path)
     parser.add_argument("pages", nargs="*", type=Path)
-    for flag in ("slow", "update", "list"):
+    for flag in ("slow", "update", "list", "forms"):
         parser.add_argument(f"--{flag}", action="store_true")
     options = parser.parse_intermixed_args()
     program = options.program.resolve()

@@ -48,9 +48,9 @@ void PrintTo(const FormatLimit& limit, std::ostream* out) {
     *out << limit.file;
 }
 
-class FormatMemory : public testing::TestWithParam<FormatLimit> {};
+class LongFormatMemory : public testing::TestWithParam<FormatLimit> {};
 
-TEST_P(FormatMemory, StaysInProportionToTheFile) {
+TEST_P(LongFormatMemory, StaysInProportionToTheFile) {
     DEGS_NEEDS_SCENE(GetParam().file);
     const std::string name = (test::scenes() / GetParam().file).string();
     const std::string extension = std::filesystem::path(name).extension().string();
@@ -64,7 +64,7 @@ TEST_P(FormatMemory, StaysInProportionToTheFile) {
                   GetParam().multiple * static_cast<double>(good.size()) + kFixed);
     }
 }
-INSTANTIATE_TEST_SUITE_P(Shared, FormatMemory,
+INSTANTIATE_TEST_SUITE_P(Shared, LongFormatMemory,
                          testing::Values(FormatLimit{"flowers-small/scene.ply", 1.3},
                                          FormatLimit{"fruit-drops/scene.ply", 1.3},
                                          FormatLimit{"fruit-drops/scene-v2.spz", 8},

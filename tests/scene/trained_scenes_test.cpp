@@ -104,12 +104,12 @@ void expect_bands(const std::vector<test::Band>& bands, const std::vector<const 
     }
 }
 
-TEST(TrainedScenes, MeasureAsDocumentedForObjects) {
+TEST(LongTrainedScenes, MeasureAsDocumentedForObjects) {
     DEGS_NEEDS_SCENE("guitar");
     expect_bands(test::kObjectBands, {"skull", "st-peter", "guitar"});
 }
 
-TEST(TrainedScenes, MeasureAsDocumentedOutdoors) {
+TEST(LongTrainedScenes, MeasureAsDocumentedOutdoors) {
     DEGS_NEEDS_SCENE("flowers");
     expect_bands(test::kOutdoorBands, {"flowers", "seal"});
 }

@@ -192,7 +192,7 @@ TEST_P(SmallRunTimingRule, HoldsInBothFidelities) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, SmallRunTimingRule, ::testing::Range(1U, 6U));
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunTimingRule, ::testing::Range(1U, 6U));
 
 // A fast writer and a reader that needs 3 cycles per item: everything follows from n, D, Lf and Lb.
 TEST(DatedFifo, StatisticsOfAFullRing) {

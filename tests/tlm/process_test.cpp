@@ -65,7 +65,7 @@ TEST_P(SmallRunArbitration, EqualsCycleByCycleInBothFidelities) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, SmallRunArbitration, ::testing::Range(1U, 9U));
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunArbitration, ::testing::Range(1U, 9U));
 
 // The writer waits for a cell of `busy`; the cell is free again at 5, but the writer has not run
 // yet when the arbiter asks. The writer's next date is 5 and not that of `busy`'s reader, who has

@@ -79,7 +79,7 @@ TEST_P(GccArrayRandom, RendersTheReferenceInBothFidelities) {
     expect_same(exact, strict);
 }
 
-INSTANTIATE_TEST_SUITE_P(Frames, GccArrayRandom, ::testing::Range(0U, 40U));
+INSTANTIATE_TEST_SUITE_P(Random, GccArrayRandom, ::testing::Range(0U, 40U));
 
 /// Timing cannot reach the pixels: windows of any size, waits or not, give the same bits.
 TEST(GccArrayPixelsRandom, TheImageDoesNotDependOnTheWindow) {

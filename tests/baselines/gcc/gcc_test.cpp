@@ -99,7 +99,7 @@ TEST_P(SmallRunGcc, ExactIsStrict) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Draws, SmallRunGcc, ::testing::Range(0U, 60U));
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunGcc, ::testing::Range(0U, 60U));
 
 /// Ends the left half of every view row by row: opaque splats on each of its pixels, then `behind`
 /// small ones there, which reach nothing live, and one on the right.

@@ -36,7 +36,7 @@ double memory_per_byte(const std::string& path) {
     return static_cast<double>(cost.bytes) / kFileBytes;
 }
 
-TEST(CameraMemory, IsAtMostTwelveTimesTheFile) {
+TEST(LongCameraMemory, IsAtMostTwelveTimesTheFile) {
     const std::pair<const char*, std::string> cases[] = {
         {"cameras", filled("[", std::string(kCamera) + ",", std::string(kCamera) + "]")},
         {"empty objects", filled("[", "{},", "1]")},
@@ -66,7 +66,7 @@ std::string many_images() {
     return test::colmap_images(images);
 }
 
-TEST(CameraMemory, OfOtherFormatsIsAtMostTwelveTimesTheFile) {
+TEST(LongCameraMemory, OfOtherFormatsIsAtMostTwelveTimesTheFile) {
     const std::string frame = R"({"transform_matrix":[[1,0,0,0],[0,1,0,0],[0,0,1,0]]})";
     const std::string head = R"({"w":1,"h":1,"fl_x":1,"frames":[)";
     const std::pair<const char*, std::string> cases[] = {

@@ -31,7 +31,7 @@ GaussianCloud many_gaussians(std::size_t count, int degree) {
     return cloud;
 }
 
-TEST(GltfMemory, IsTwiceTheFileOrTheFileAndItsGaussians) {
+TEST(LongGltfMemory, IsTwiceTheFileOrTheFileAndItsGaussians) {
     for (const int degree : {0, 3}) {
         const test::Folder folder;
         const std::string path = folder.path("scene.glb");
@@ -46,7 +46,7 @@ TEST(GltfMemory, IsTwiceTheFileOrTheFileAndItsGaussians) {
 }
 
 /// The costliest values: objects of a few bytes that the library turns into large structures.
-TEST(GltfMemory, IsBoundedForJsonAlone) {
+TEST(LongGltfMemory, IsBoundedForJsonAlone) {
     for (const char* const list : {"nodes", "materials", "accessors", "meshes", "animations"}) {
         std::string text = "{\"asset\":{\"version\":\"2.0\"},\"" + std::string(list) + "\":[{}";
         for (int i = 0; i < 262000; ++i) {

@@ -340,7 +340,7 @@ TEST_P(HostileGlbMutation, LoadsOrIsRefusedInOneSentence) {
         EXPECT_THAT(said, IsSentenceWith(""));
     }
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, HostileGlbMutation, testing::Range(0, 200));
+INSTANTIATE_TEST_SUITE_P(Random, HostileGlbMutation, testing::Range(0, 200));
 
 } // namespace
 } // namespace degs

@@ -36,11 +36,11 @@ TEST(SyntheticStatistics, ObjectIsLikeSkullStPeterAndGuitar) {
     expect_within(test::kObjectBands, measure_all(load_scene("synthetic:object")));
 }
 
-TEST(SyntheticStatistics, OutdoorIsLikeFlowersAndSeal) {
+TEST(LongSyntheticStatistics, OutdoorIsLikeFlowersAndSeal) {
     expect_within(test::kOutdoorBands, measure_all(load_scene("synthetic:outdoor")));
 }
 
-TEST(SyntheticStatistics, AnotherSeedIsAnotherSceneOfTheSameKind) {
+TEST(LongSyntheticStatistics, AnotherSeedIsAnotherSceneOfTheSameKind) {
     const Scene scene = load_scene("synthetic:object,seed=77");
     EXPECT_NE(scene.cloud.means, load_scene("synthetic:object").cloud.means);
     expect_within(test::kObjectBands, measure_all(scene));
@@ -48,7 +48,7 @@ TEST(SyntheticStatistics, AnotherSeedIsAnotherSceneOfTheSameKind) {
 }
 
 // It shows a whole world, so that counts per pixel are compared over covered pixels.
-TEST(SyntheticStatistics, LighthouseHasTheGaussiansOfFlowersAndSeal) {
+TEST(LongSyntheticStatistics, LighthouseHasTheGaussiansOfFlowersAndSeal) {
     const Scene scene = load_scene("synthetic:lighthouse");
     const std::vector<Measured> measured = measure_all(scene);
     std::vector<Band> bands;
@@ -104,7 +104,7 @@ TEST(SyntheticStatistics, LandscapeFillsEveryView) {
 
 // Lists of 8 x 8 px at 1080p, with as many Gaussians as the published scenes have: 166 to 254
 // entries in the mean.
-TEST(SyntheticStatistics, LandscapeHasListsLikeBicycleAndGarden) {
+TEST(LongSyntheticStatistics, LandscapeHasListsLikeBicycleAndGarden) {
     const Scene scene = load_scene("synthetic:landscape");
     EXPECT_EQ(scene.cloud.size(), 3000000U);
     Camera camera = scene.cameras[1];
@@ -227,7 +227,8 @@ TEST(SyntheticScenes, AreDrawableAsTheyAre) {
 
 TEST(SyntheticScenes, HaveTheViewsOfTheTrainedOnesAndNothingInTheLens) {
     for (const SyntheticProfile& profile : synthetic_profiles()) {
-        const SyntheticScene scene = make_synthetic(parse_synthetic(profile.name));
+        const SyntheticScene scene = make_synthetic(
+            {profile.name, std::min<std::uint64_t>(profile.default_gaussians, 100000), 1});
         ASSERT_EQ(scene.cameras.size(), 3U);
         const bool whole = profile.name == "interior" || profile.name == "garden";
         EXPECT_EQ(scene.cameras[0].width, whole ? 1440 : 640);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hard cases hold for every number set: all of them at 720p, those that break at 8K.
+// The hard cases hold for every number set: all of them at 320x180, and in Long* at 720p and those
+// that break at 8K.
 #include <algorithm>
 
 #include "sim/accuracy/hard_case_run.hpp"
@@ -31,8 +32,8 @@ void expect_holds(const std::vector<HardResult>& results) {
     }
 }
 
-TEST(HardCases, AllHoldAt720p) {
-    const std::vector<HardResult> results = run_hard_cases({}, "720p");
+void expect_all_hold(const std::string& resolution) {
+    const std::vector<HardResult> results = run_hard_cases({}, resolution);
     ASSERT_EQ(results.size(), 32U);
     expect_holds(results);
     for (const HardResult& result : results) {
@@ -44,7 +45,15 @@ TEST(HardCases, AllHoldAt720p) {
     }
 }
 
-TEST(HardCases, ThoseThatBreakHoldAt8k) {
+TEST(HardCases, AllHold) {
+    expect_all_hold("320x180");
+}
+
+TEST(LongHardCases, AllHoldAt720p) {
+    expect_all_hold("720p");
+}
+
+TEST(LongHardCases, ThoseThatBreakHoldAt8k) {
     expect_holds(run_hard_cases({"H1", "H3", "H6", "H7", "H24", "H32"}, "8k"));
 }
 

@@ -149,7 +149,7 @@ TEST_P(SmallRunRecordSharing, NothingIsLostAndALargeCacheReadsEverySplatOnce) {
     EXPECT_EQ(stats.captured != 0, window != 0 && fetchers > 1) << stats.captured;
 }
 
-INSTANTIATE_TEST_SUITE_P(Draws, SmallRunRecordSharing, ::testing::Range(0U, 20U));
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunRecordSharing, ::testing::Range(0U, 20U));
 
 } // namespace
 } // namespace degs

@@ -299,7 +299,7 @@ TEST_P(SmallRunSplatSupply, ExactIsStrictAndNothingIsLost) {
     EXPECT_EQ(exact.memory->stats(0).bytes_read, strict.memory->stats(0).bytes_read);
 }
 
-INSTANTIATE_TEST_SUITE_P(Draws, SmallRunSplatSupply, ::testing::Range(0U, 60U));
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunSplatSupply, ::testing::Range(0U, 60U));
 
 } // namespace
 } // namespace degs

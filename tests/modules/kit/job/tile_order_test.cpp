@@ -95,7 +95,7 @@ TEST_P(SmallRunTileOrder, ExactIsStrictAndTheImageStays) {
     test::expect_same_statistics(exact, strict);
 }
 
-INSTANTIATE_TEST_SUITE_P(Draws, SmallRunTileOrder, ::testing::Range(0U, 4U));
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunTileOrder, ::testing::Range(0U, 4U));
 
 } // namespace
 } // namespace degs
