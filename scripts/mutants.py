@@ -361,7 +361,7 @@ def count(root):
         print(f"| {room} | {' | '.join(map(str, numbers))} |")
 
 
-def main():
+def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command", nargs="?", choices=("list", "run", "count"))
     parser.add_argument("names", nargs="*", metavar="NAME")
@@ -373,7 +373,7 @@ def main():
     parser.add_argument("--rooms", nargs="+", default=[], help="build and run the tests of these folders of tests alone")
     parser.add_argument("--results", help="table of the results (default: docs/mutants.csv)")
     parser.add_argument("--again", action="store_true", help="also what has a row")
-    options = parser.parse_intermixed_args()
+    options = parser.parse_intermixed_args(arguments)
     try:
         if options.check:
             check(options.root)
