@@ -5,7 +5,7 @@
     mutants.py --check                  every entry of tests/mutants/*.yaml applies, and there are enough of them
     mutants.py list [NAME ...]          names, files and what is wrong
     mutants.py run [NAME ...]           builds a copy with all of them and tests one after the other
-    mutants.py count                    how many the tests killed, by folder, from docs/mutants.csv
+    mutants.py count                    how many there are by folder, and what became of them by docs/mutants.csv
 
 NAME is a mutant (dram/tfaw-window-holds-three-acts), a table (dram) or a pattern (sim*/*energy*).
 
@@ -352,12 +352,13 @@ def run(root, options):
 
 
 def count(root):
-    rows = list(read_rows(root / "docs/mutants.csv").values())
-    print("| folder | mutants | killed | equivalent | survive |\n|---|---:|---:|---:|---:|")
-    rooms = sorted({room_of(row["table"]) for row in rows})
-    for room in [*rooms, "all"]:
-        verdicts = [row["verdict"] for row in rows if room in ("all", room_of(row["table"]))]
-        numbers = (len(verdicts), *(verdicts.count(word) for word in ("killed", "equivalent", "survives")))
+    mutants, _ = checked(root)
+    rows = read_rows(root / "docs/mutants.csv")
+    print("| folder | mutants | killed | equivalent | survive | not tried |\n|---|---:|---:|---:|---:|---:|")
+    for room in [*sorted({mutant.room for mutant in mutants}), "all"]:
+        verdicts = [rows[mutant.digest]["verdict"] if mutant.digest in rows else "" for mutant in mutants
+                    if room in ("all", mutant.room)]
+        numbers = (len(verdicts), *(verdicts.count(word) for word in ("killed", "equivalent", "survives", "")))
         print(f"| {room} | {' | '.join(map(str, numbers))} |")
 
 
