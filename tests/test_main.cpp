@@ -142,6 +142,9 @@ int run_each(const std::vector<const TestInfo*>& tests) {
                     test->name(), took.count());
         skipped += WIFEXITED(status) && WEXITSTATUS(status) == kSkipped ? 1 : 0;
         failed += !WIFEXITED(status) || (WEXITSTATUS(status) % kSkipped != 0) ? 1 : 0;
+        if (failed > 0 && GTEST_FLAG_GET(fail_fast)) {
+            break;
+        }
     }
     std::printf("%zu passed, %zu failed, %zu skipped\n", tests.size() - failed - skipped, failed,
                 skipped);

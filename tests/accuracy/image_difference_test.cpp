@@ -59,10 +59,11 @@ TEST(ImageDifference, NumbersThatAreNoneAreCountedAndNotAdded) {
     b.rgb[0] += 0.25F;
     b.rgb[3 * a.at(4, 3)] = std::numeric_limits<float>::quiet_NaN();
     b.transmittance[a.at(4, 3)] = std::numeric_limits<float>::infinity();
+    b.rgb[3 * a.at(5, 5)] += 0.5F;
     ImageDifference difference;
     difference.add(a, b);
     EXPECT_EQ(difference.nonfinite(), 2U);
-    EXPECT_FLOAT_EQ(static_cast<float>(difference.max_abs_error()), 0.25F);
+    EXPECT_FLOAT_EQ(static_cast<float>(difference.max_abs_error()), 0.5F);
     EXPECT_EQ(difference.alpha_error_max(), 0);
     EXPECT_EQ(difference.worst_x(), 4); // it is worse than any error
     EXPECT_EQ(difference.worst_y(), 3);

@@ -6,6 +6,7 @@
 #include "accuracy/pixel_tolerance.hpp"
 #include "accuracy/span_difference.hpp"
 #include "splat/reference/reference_renderer.hpp"
+#include "tests/modules/degs/workload_fixture.hpp"
 #include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {
@@ -84,6 +85,23 @@ TEST(SpanDifference, CountsEveryPixelOnce) {
     const SpanDifference narrower = compare_spans(work, named_numbers("fp64"), outward);
     EXPECT_EQ(narrower.flips, wider.flips);
     EXPECT_EQ(narrower.pixels + narrower.flips, wider.pixels);
+}
+
+// Errors of alpha and of the update for every splat, weighted with what the splats before it leave;
+// behind the third splat of alpha 0.98 a pixel may end here or a little later, with what is left.
+TEST(PixelTolerance, AddsUpAlongAPixel) {
+    const NumberTolerance numbers{1e-3, 1e-5, false};
+    const auto bound = [&](const std::vector<double>& opacities) {
+        std::vector<ProjectedSplat> splats;
+        for (const double opacity : opacities) {
+            splats.push_back(test::make_splat(8, 8, 1e4, 1e4, 0, opacity));
+            splats.back().colour[1] = 2;
+        }
+        return pixel_tolerance(test::make_frame(splats, 16, 16, 16), 8, 8, numbers);
+    };
+    EXPECT_NEAR(bound({0.5}), 2 * (1e-3 + 1e-5), 1e-12);
+    EXPECT_NEAR(bound({0.5, 0.25}), 2 * (1.5e-3 + 2e-5), 1e-12);
+    EXPECT_NEAR(bound({0.98, 0.98, 0.98, 0.98}), 2 * (1.0204e-3 + 3e-5 + 4e-4), 1e-12);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <thread>
@@ -22,6 +23,20 @@ struct Threads {
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
 };
+
+// Also those behind the last whole part of 8192.
+TEST(Parallel, RangesHaveEveryIndexOnce) {
+    for (const std::size_t count : {0, 1, 8191, 8192, 8193, 20000}) {
+        std::vector<int> done(count); // ranges do not meet
+        parallel_ranges(count, [&](std::size_t begin, std::size_t end) {
+            ASSERT_LE(end, count);
+            for (std::size_t i = begin; i < end; ++i) {
+                ++done[i];
+            }
+        });
+        EXPECT_EQ(std::count(done.begin(), done.end(), 1), static_cast<std::ptrdiff_t>(count));
+    }
+}
 
 TEST(Parallel, DoesEveryBlockOnceWithFewWorkers) {
     for (const int most : {1, 2, 5}) {

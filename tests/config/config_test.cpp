@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "config/config_changes.hpp"
 #include "config/config_source.hpp"
 #include "config_fixture.hpp"
 
@@ -312,6 +313,47 @@ TEST(UnusedKeys, AreNoMistakeIfAStrongerChoiceCameOverThem) {
     EXPECT_EQ(warnings_of("width: 4\n", {"banked=true"}), Sentences{});
     EXPECT_EQ(warnings_of("banked: true\n", {}), Sentences{});
     EXPECT_EQ(warnings_of("width: 4\n", {}), Sentences{});
+}
+
+/// `row` has no effect, but `rows` has.
+struct TwoRows {
+    int row = 4, rows = 4;
+    void describe(ConfigVisitor& v) {
+        v.integer("row", row, 1, 64, "the first");
+        v.integer("rows", rows, 1, 64, "all");
+        v.unused("row", "rows", "rows count");
+    }
+};
+
+TEST(UnusedKeys, AreNotThoseWhoseNamesBeginAlike) {
+    TwoRows config;
+    EXPECT_EQ(ConfigSource::from_text("a.yaml", "rows: 5\n", {"row=4"}).load(config), Sentences{});
+    EXPECT_EQ(ConfigSource::from_text("a.yaml", "rows: 5\n", {"row=5"}).load(config),
+              Sentences{"--set row=5: key 'row' has no effect, because rows count."});
+}
+
+/// Changes to the memory of another design.
+struct ChangedMemory {
+    MemoryKeys base;
+    ConfigChanges changes;
+    void describe(ConfigVisitor& v) {
+        v.begin_section("change", "of the memory");
+        changes.describe(v, base);
+        v.end_section();
+    }
+};
+
+TEST(ConfigChanges, AreTheKeysThatAreNotSetBack) {
+    ChangedMemory config;
+    ConfigSource::from_text("a.yaml", "change: {refresh: false, access_bytes: 128}", {})
+        .load(config);
+    EXPECT_EQ(config.changes.assignments(), (Sentences{"access_bytes=128", "refresh=false"}));
+    EXPECT_EQ(config.changes.applied_to(MemoryKeys()).access_bytes, 128);
+    config.base = {};
+    ConfigSource::from_text("a.yaml", "change: {access_bytes: set}", {}).load(config);
+    EXPECT_EQ(config.changes.assignments(), Sentences{"refresh=false"});
+    EXPECT_EQ(config.base.access_bytes, 64);
+    EXPECT_FALSE(config.base.refresh);
 }
 
 } // namespace

@@ -56,7 +56,8 @@ TEST(Quantity, IsHeldToTheRangeOfTheKey) {
 }
 
 TEST(Quantity, IsNoTextAndNoNumberWrittenWrong) {
-    for (const char* const text : {"1e3", "0x10", "010", "010KB", "\"8KB\"", "1.2.3", "x2"}) {
+    for (const char* const text :
+         {"1e3", "0x10", "010", "01KB", "010KB", "\"8KB\"", "1.2.3", "x2"}) {
         EXPECT_NE(refusal_with("memory: {access_bytes: " + std::string(text) + "}")
                       .find("but must be an integer in decimal digits"),
                   std::string::npos)
@@ -71,6 +72,22 @@ TEST(Quantity, TextOfADecimalHasNoRounding) {
     EXPECT_EQ(decimal_text(0.07 * 100), "7");
     EXPECT_EQ(decimal_text(51.2 * 4), "204.8");
     EXPECT_EQ(decimal_text(0.1 + 0.2), "0.3");
+}
+
+TEST(Quantity, IsAFactorWithAPartThatExists) {
+    EXPECT_EQ(parse_quantity("x3/4")->number, 0.75);
+    EXPECT_TRUE(parse_quantity("x3/4")->factor);
+    for (const char* const text : {"x1/0", "x0/0", "x1/", "x/2", "x1/2/2"}) {
+        EXPECT_FALSE(parse_quantity(text)) << text;
+    }
+}
+
+// A sentence begins with the word of a unit, not with a longer one.
+TEST(Quantity, HasTheUnitsOfWholeWords) {
+    EXPECT_EQ(units_of({"a", "ns, of a cycle"}), (std::vector<std::string>{"ns", "us"}));
+    EXPECT_EQ(units_of({"a", "share"}), std::vector<std::string>{"%"});
+    EXPECT_TRUE(units_of({"a", "shares of all"}).empty());
+    EXPECT_TRUE(units_of({"a", "GHz2"}).empty());
 }
 
 } // namespace

@@ -143,6 +143,18 @@ TEST(LogicLaws, WidthsAreThoseOfTheSynthesis) {
     });
 }
 
+// Tasks of 11 bits and 5 of their place; 16 pixels complete up to two packets of 12 lanes, beside
+// the one that stays open: 36 lanes and the 12 of that one. Sixteen complete four packets of 4.
+TEST(LogicLaws, PacketsThatAreCompleteInPartHaveLanes) {
+    LogicLaws laws;
+    laws.task_bits = 11;
+    laws.packing = {1, 0};
+    laws.packing_reach = 0;
+    EXPECT_DOUBLE_EQ(laws.area_packing(1, 16, 12, 1), (36 + 12) * 16);
+    EXPECT_DOUBLE_EQ(laws.area_packing(1, 16, 4, 1), (20 + 4) * 16);
+    EXPECT_DOUBLE_EQ(laws.area_packing(1, 16, 12, 4), (60 + 12) * 16);
+}
+
 TEST(LogicLaws, PeAndPixelLoopAreThoseOfTheSynthesis) {
     const LogicLaws laws;
     EXPECT_EQ(std::stod(points_of("pe").front().at("area")), laws.pe_area);

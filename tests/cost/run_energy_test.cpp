@@ -111,6 +111,9 @@ TEST(RunEnergy, EveryBlockNeedsExactlyOneActivity) {
     facts.activity.push_back({"unit", 1});
     EXPECT_THROW(RunEnergy(bill, facts), std::logic_error);
     facts = facts_of(1, 1);
+    facts.activity.push_back({"unit", 0}); // the sum of energies is right
+    EXPECT_THROW(RunEnergy(bill, facts), std::logic_error);
+    facts = facts_of(1, 1);
     facts.activity.push_back({"stranger", 1});
     EXPECT_THROW(RunEnergy(bill, facts), std::logic_error);
 }

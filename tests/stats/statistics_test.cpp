@@ -79,6 +79,14 @@ TEST(Counters, AddUpAndKeepTheHighest) {
     EXPECT_THROW(counters.begin_section("part", ""), std::logic_error);
 }
 
+TEST(Statistics, InfinitiesHaveTheirSign) {
+    const auto both = [](StatsVisitor& v) {
+        v.real("most", std::numeric_limits<double>::infinity(), "dB", "Of equals.");
+        v.real("least", -std::numeric_limits<double>::infinity(), "dB", "Of nothing.");
+    };
+    EXPECT_EQ(statistics_json(list_statistics(both)).dump(), R"({"most":"inf","least":"-inf"})");
+}
+
 TEST(Statistics, BecomeNestedJson) {
     const nlohmann::ordered_json json = statistics_json(list_statistics(describe_house));
     EXPECT_EQ(json.dump(),

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tlm_utils/simple_target_socket.h>
 
 #include "tests/tlm/script.hpp"
 
@@ -213,6 +214,36 @@ TEST(MemoryPort, TellsOfNoRequestBeforeThePresentCycle) {
     sc_core::sc_start();
     ASSERT_EQ(announced.requests.size(), 1U);
     EXPECT_EQ(announced.requests.front().date, 50U);
+}
+
+/// A memory that remembers which accesses are urgent.
+struct UrgencyTarget : sc_core::sc_module {
+    tlm_utils::simple_target_socket<UrgencyTarget> in{"in"};
+    std::vector<bool> urgent;
+    explicit UrgencyTarget(const sc_core::sc_module_name& name) : sc_core::sc_module(name) {
+        in.register_b_transport(this, &UrgencyTarget::transport);
+    }
+    void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& /*delay*/) {
+        urgent.push_back(payload.get_extension<Urgent>() != nullptr);
+        payload.set_response_status(tlm::TLM_OK_RESPONSE);
+    }
+};
+
+TEST(MemoryPort, OnlyItsReadsAreUrgent) {
+    const Timebase time;
+    UrgencyTarget memory("memory");
+    MemoryPort port("port", time);
+    port.out.bind(memory.in);
+    port.make_urgent();
+    Process self(time);
+    const Script script("script", [&] {
+        port.read(self, 0, 64);
+        port.write(self, 0, 64);
+        port.write(self, 0, std::vector<unsigned char>(64));
+        port.read(self, 0, 64);
+    });
+    sc_core::sc_start();
+    EXPECT_EQ(memory.urgent, (std::vector<bool>{true, false, false, true}));
 }
 
 } // namespace

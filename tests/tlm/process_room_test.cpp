@@ -129,6 +129,32 @@ TEST_P(RoomIn, WritersAndReadersMayAskEachOther) {
     }
 }
 
+// The reader acts at 6 when kernel time has come half a cycle further. The writer, which asks for
+// room at 8, must not take the beginning of that cycle for its end.
+TEST_P(RoomIn, CountsAReadOfTheSecondHalfOfACycle) {
+    ProcessBench bench(GetParam());
+    DatedFifo<int> ring("ring", bench.time, 1, 1, 2);
+    Process writer(bench.time);
+    Process reader(bench.time);
+    ring.connect_writer(writer);
+    ring.connect_reader(reader);
+    bool room = false;
+    const Script write("write", [&] {
+        ring.put(writer, 1);
+        writer.advance_to(8);
+        room = ring.has_room(writer);
+        writer.finish();
+    });
+    const Script read("read", [&] {
+        reader.advance(6);
+        sc_core::wait(sc_core::sc_time(6.5, sc_core::SC_NS) - sc_core::sc_time_stamp());
+        EXPECT_EQ(ring.take(reader), 1);
+        reader.finish();
+    });
+    sc_core::sc_start();
+    EXPECT_TRUE(room);
+}
+
 INSTANTIATE_TEST_SUITE_P(Fidelities, RoomIn, test::both_fidelities(), test::fidelity_name);
 
 } // namespace

@@ -308,5 +308,37 @@ TEST_P(ProcessIn, LocalDatesOnlyRise) {
 
 INSTANTIATE_TEST_SUITE_P(Fidelities, ProcessIn, test::both_fidelities(), test::fidelity_name);
 
+// The arbiter, which has an item of date 50, hears at 5 that nothing comes before 105. It does not
+// have to wait until kernel time has come to 50.
+TEST(Process, AProofWakesWhoWaitsForIt) {
+    ProcessBench bench;
+    const auto slow = bench.ring("slow", 4);
+    const auto fast = bench.ring("fast", 4);
+    Process writer(bench.time), other(bench.time), arbiter(bench.time);
+    slow->connect_writer(writer);
+    fast->connect_writer(other);
+    const Script early("early", [&] {
+        other.advance(49);
+        fast->put(other, 1);
+        other.finish();
+    });
+    const Script write("write", [&] {
+        writer.advance(5);
+        writer.sync();
+        writer.advance(100);
+        writer.sync();
+        slow->put(writer, 2);
+        writer.finish();
+    });
+    const Script arbitrate("arbitrate", [&] {
+        sc_core::wait(1, sc_core::SC_NS);
+        arbiter.advance_to(1);
+        FifoBase* inputs[] = {fast.get(), slow.get()};
+        EXPECT_EQ(arbiter.next_arrival(inputs, 2, arbiter.local(), kNever), 50U);
+        EXPECT_EQ(sc_core::sc_time_stamp(), sc_core::sc_time(5, sc_core::SC_NS));
+    });
+    sc_core::sc_start();
+}
+
 } // namespace
 } // namespace degs

@@ -258,5 +258,54 @@ TEST(LockstepClusters, DoNotWaitForEachOtherWithinATile) {
     bench.expect_sound();
 }
 
+// Sub-tile 0 has ended, and ten splats of it follow before one over everything: as many per cycle
+// are passed over as the key says, and the lanes wait for it.
+class PassedOver : public ::testing::TestWithParam<std::pair<int, Cycle>> {};
+TEST_P(PassedOver, TakesACyclePerSkips) {
+    const auto [skips, cycles] = GetParam();
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 3 * 64 + 10; ++i) {
+        splats.push_back(one_pixel(i % 8, i / 8 % 8, 0.98));
+    }
+    splats.push_back(blanket(8, 8, 16, 0.1));
+    Config config = skip(SubtileTest::Exact);
+    config.skips_per_cycle = skips;
+    LockstepBench bench("bench", config, make_frame(splats, 16, 16, 16), {});
+    bench.chunks_of_all_tiles();
+    LockstepBench::start();
+    EXPECT_EQ(bench.stats().splats_skipped, 10U);
+    EXPECT_EQ(bench.stats().passes, 3U * 64 + 3);
+    EXPECT_EQ(bench.stats().window.cycles(), 3U * 64 + cycles + 3);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 64 * cycles);
+    bench.expect_sound();
+}
+INSTANTIATE_TEST_SUITE_P(Skips, PassedOver,
+                         ::testing::Values(std::pair<int, Cycle>(0, 0),
+                                           std::pair<int, Cycle>(1, 10),
+                                           std::pair<int, Cycle>(2, 5), std::pair<int, Cycle>(3, 3),
+                                           std::pair<int, Cycle>(4, 2)));
+
+// The second tile waits for the only context and later, when it has it, for its second chunk, which
+// is no fault of the Pixel Buffer.
+TEST(LockstepArray, AContextIsWaitedForOnce) {
+    LockstepBench::Sizes sizes;
+    sizes.contexts = 1;
+    sizes.readout = 30;
+    const Config config;
+    LockstepBench bench(
+        "bench", config,
+        make_frame({one_pixel(3, 3), one_pixel(19, 3), one_pixel(19, 4)}, 32, 16, 16), sizes);
+    bench.chunk(0, 1, LockstepBench::kStart);
+    bench.chunk(1, 1, LockstepBench::kStart);
+    const Cycle begun = // a slot, written back, read out, and a cycle on the wire
+        LockstepBench::kStart + 1 + static_cast<Cycle>(config.pipeline_cycles) + 30 + 1;
+    bench.chunk(1, 1, begun + 500);
+    LockstepBench::start();
+    EXPECT_EQ(bench.stats().window.last, begun + 500);
+    EXPECT_EQ(bench.stats().slots[Slot::Blocked], (begun - LockstepBench::kStart - 1) * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 499U * 64);
+    bench.expect_sound();
+}
+
 } // namespace
 } // namespace degs

@@ -98,11 +98,13 @@ TEST(CameraPath, TurnsByTheSameAngleEveryFrame) {
 TEST(CameraPath, PivotIsTheMedianDepthOfWhatIsSeen) {
     const Camera start = tilted_camera();
     std::vector<glm::dvec3> means{on_axis(start, 3), on_axis(start, 4), on_axis(start, 5)};
-    means.push_back(on_axis(start, 0.1));                          // before the near plane
-    means.push_back(on_axis(start, -7));                           // behind
-    means.push_back(on_axis(start, 1) + start.camera_to_world[0]); // beside the image
-    means.push_back(on_axis(start, 1) + start.camera_to_world[1]); // below it
-    means.push_back(on_axis(start, 1));
+    // Each of the others would move the median, the nearer ones together.
+    means.push_back(on_axis(start, 0.1));                                // before the near plane
+    means.push_back(on_axis(start, 0.15));                               // likewise
+    means.push_back(on_axis(start, -7));                                 // behind
+    means.push_back(on_axis(start, 9) + 9.0 * start.camera_to_world[0]); // beside the image
+    means.push_back(on_axis(start, 9) + 9.0 * start.camera_to_world[1]); // below it
+    means.push_back(on_axis(start, 9));
     GaussianCloud cloud = cloud_at(means);
     cloud.opacities.back() = 1e-3F; // transparent
     expect_near(path_pivot(cloud, start), on_axis(start, 4), 1e-12);

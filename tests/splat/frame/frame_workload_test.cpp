@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "degs/error.hpp"
+#include "splat/frame/shared_colours.hpp"
 #include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {
@@ -187,6 +188,39 @@ TEST(WorkloadErrors, ImpossibleArgumentsAreNamed) {
     EXPECT_THROW(make(10, 16, -1), InputError);
     EXPECT_THROW(make(10, 16, std::nan("")), InputError);
     EXPECT_THROW(make_frame_workload({}, make_camera(10, 10, 0), 16, TileMode::Exact), InputError);
+}
+
+// Two means nearer than the near plane; one of them is beside the image.
+TEST(CullCounts, NearGaussiansInViewAreThoseInTheImage) {
+    GaussianCloud cloud;
+    for (const double x : {0.0, 0.09, 0.01}) {
+        add_gaussian(cloud, {x, 0, x == 0.01 ? 2 : 0.1}, glm::vec3(0.02F), {1, 0, 0, 0}, 0.5F,
+                     glm::vec3(1));
+    }
+    const FrameWorkload work =
+        make_frame_workload(cloud, make_camera(64, 64, 64), 16, TileMode::Exact);
+    EXPECT_EQ(work.culled.near, 2U);
+    EXPECT_EQ(work.culled.near_in_view, 1U);
+}
+
+// The colours of views that lie beside each other are seen from the place that they share.
+TEST(SharedColours, AreThoseOfTheGivenPlace) {
+    const GaussianCloud cloud = test::random_cloud(200, 12, 2);
+    Camera camera = make_camera(64, 48, 60);
+    FrameWorkload frame = make_frame_workload(cloud, camera, 16, TileMode::Exact);
+    camera.position = {0.4, 0.1, -0.2};
+    const FrameWorkload moved = make_frame_workload(cloud, camera, 16, TileMode::Exact);
+    shade_from(cloud, camera.position, frame);
+    int both = 0;
+    for (const ProjectedSplat& splat : frame.splats) {
+        for (const ProjectedSplat& other : moved.splats) {
+            if (splat.id == other.id) {
+                ++both;
+                EXPECT_EQ(splat.colour[0], other.colour[0]) << splat.id;
+            }
+        }
+    }
+    EXPECT_GT(both, 50);
 }
 
 } // namespace

@@ -55,5 +55,18 @@ TEST(Saturation, LeavesOutRowsThatOneRowSays) {
     EXPECT_TRUE(saturated_stages(named_numbers("tuned"), frame).empty());
 }
 
+// A splat once, whichever of its channels the format does not reach.
+TEST(Saturation, CountsColoursOfEveryChannel) {
+    FrameWorkload frame = frame_with(0);
+    for (int channel = 0; channel < 3; ++channel) {
+        frame.splats[channel].colour[channel] = 1e6;
+    }
+    frame.splats[3].colour[0] = frame.splats[3].colour[2] = 1e6;
+    const auto found = saturated_stages(named_numbers("fp32", {"colour=fp16"}), frame);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].stage, "colour");
+    EXPECT_EQ(found[0].splats, 4U);
+}
+
 } // namespace
 } // namespace degs

@@ -259,6 +259,30 @@ INSTANTIATE_TEST_SUITE_P(Ports, SegmentPorts,
                          ::testing::Values(std::pair<int, Cycle>(0, 4), std::pair<int, Cycle>(2, 4),
                                            std::pair<int, Cycle>(1, 8)));
 
+// Four rows of the second tile wait in the bank for its context, long cut, and go together: as many
+// per cycle as the ports let out, and the array executes two.
+class SegmentReadPorts : public ::testing::TestWithParam<std::pair<int, Cycle>> {};
+
+TEST_P(SegmentReadPorts, LimitWhatIsIssued) {
+    const auto [ports, cycles] = GetParam();
+    SchedulerBench::Sizes sizes;
+    sizes.segment_ports = ports;
+    sizes.width = 32;
+    SchedulerBench bench(sizes, {blanket(16, 8, 32, 0.2)}, 16, 2);
+    bench.next_context = 100;
+    std::vector<SchedulerBench::Feed> feeds = SchedulerBench::rows(0, 1, 10);
+    for (int row = 0; row < 4; ++row) {
+        feeds.push_back({10, 0, row, 1});
+    }
+    bench.run(feeds);
+    EXPECT_EQ(bench.stats().window.last, 100U + 2 + cycles - 1);
+    EXPECT_EQ(bench.accounted(), bench.window_slots());
+}
+
+INSTANTIATE_TEST_SUITE_P(Ports, SegmentReadPorts,
+                         ::testing::Values(std::pair<int, Cycle>(0, 2), std::pair<int, Cycle>(2, 2),
+                                           std::pair<int, Cycle>(1, 4)));
+
 // Segments that waited for the read port say so: two wait in the queue, one may go.
 TEST(IssueBankPorts, AWaitForTheReadPortHasACauseOfItsOwn) {
     SchedulerBench::Sizes sizes;

@@ -108,6 +108,14 @@ TEST(TileMonitor, CancelsWhenTheLastSliceHasReported) {
     monitor.expect_tile_1_cancelled(60);
 }
 
+// The live pixels of tile 0 are those of the slice that is asked first.
+TEST(TileMonitor, LivePixelsOfAnySliceKeepATile) {
+    MonitorBench monitor;
+    monitor.feed(monitor.slice0, {{30, 0, false}, {40, 1, true}});
+    monitor.feed(monitor.slice1, {{50, 0, true}, {60, 1, true}});
+    monitor.expect_tile_1_cancelled(60);
+}
+
 // A slice may end a tile before an older one. Slice 0 has ended all of tile 0 and then of tile 1,
 // slice 1 all of tile 1 and later, with live pixels, tile 0: only tile 1 is over everywhere.
 TEST(TileMonitor, TakesReportsInAnyOrder) {
@@ -304,6 +312,48 @@ TEST(PixelBuffer, ContextsComeBackAfterTheReadout) {
     EXPECT_GE(unit.stats().finished, 300U + 4 + 50);
     EXPECT_EQ(bench.memory->total().bytes_written, 3U * 16 * 13 * 4);
 }
+
+class TileWrites : public ::testing::TestWithParam<int> {};
+
+// Four tiles of 16 x 16 px are complete at once, are read out in 16 cycles each, and memory answers
+// after 100 more. A tile is not read out before the write `writes` before it has been answered.
+TEST_P(TileWrites, LimitTheReadout) {
+    UnitBench bench(make_frame({blanket(32, 8, 64)}, 64, 16, 16), 4);
+    PixelBuffer::Config config;
+    config.readout_pixels = 16;
+    config.writes_in_flight = GetParam();
+    PixelBuffer unit("unit", config, {}, bench.time, bench.job, 1, 4, PixelBuffer::Share{});
+    DatedFifo<SliceReport> slice("slice", bench.time, 8);
+    DatedFifo<TileNumber> free("free", bench.time, 8);
+    unit.in[0].bind(slice);
+    unit.context_free[0].bind(free);
+    bench.connect({&unit.frame_buffer}, 100);
+    bench.script([&](Process& self) {
+        slice.connect_writer(self);
+        self.advance(9);
+        for (TileNumber tile = 0; tile < 4; ++tile) {
+            slice.put(self, {tile, false});
+        }
+    });
+    bench.drain(free);
+    sc_core::sc_start();
+    std::vector<Cycle> begun, answered;
+    Cycle ready = 10, waited = 0;
+    for (int tile = 0; tile < 4; ++tile) {
+        Cycle begin = ready;
+        if (tile >= GetParam()) {
+            begin = std::max(begin, answered[tile - GetParam()]);
+        }
+        waited += begin - ready;
+        answered.push_back(begin + 15 + 100); // the last row leaves in the last cycle
+        ready = begin + 16;
+    }
+    EXPECT_EQ(unit.stats().write_wait, waited);
+    EXPECT_EQ(unit.stats().finished, answered.back());
+    EXPECT_EQ(unit.stats().readout_busy, 4U * 16);
+}
+
+INSTANTIATE_TEST_SUITE_P(Writes, TileWrites, ::testing::Values(1, 2, 3, 4));
 
 } // namespace
 } // namespace degs

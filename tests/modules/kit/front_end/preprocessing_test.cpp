@@ -177,5 +177,95 @@ TEST(SortingUnit, ListsTakeTheirLeastPassesThroughMemory) {
     EXPECT_EQ(bench.memory->stats(1).bytes_written, 2U * 40 * 8);
 }
 
+/// Forty Gaussians of a pixel each, the first `left` of them in the left of two tiles.
+FrameWorkload two_tiles(int left) {
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 40; ++i) {
+        splats.push_back(test::one_pixel(i % 8 + (i < left ? 0 : 16), i / 8));
+    }
+    return test::make_frame(splats, 32, 16, 16);
+}
+
+// Thirty and ten keys; in the second frame all forty are in the left tile. Ten of them are new, are
+// sorted alone and merged with the list that was kept; each sorted list goes back to memory.
+TEST(SortingUnit, KeptListsAreMergedWithNewKeys) {
+    UnitBench bench(two_tiles(30));
+    const FrameWorkload second = two_tiles(40);
+    bench.job.add(second);
+    ListChanges changes(bench.job, true);
+    SortingUnit::Config config;
+    config.count = 1;
+    SortingUnit unit("unit", config, {}, bench.time, bench.job, changes, 0, 1000);
+    DatedFifo<std::uint32_t> start("start", bench.time, 2);
+    DatedFifo<SortedRun> sorted("sorted", bench.time, 8);
+    unit.start.bind(start);
+    unit.sorted.bind(sorted);
+    bench.connect({&unit.loader.lists, &unit.lists});
+    bench.script([&](Process& self) {
+        start.connect_writer(self);
+        start.put(self, 0);
+        start.put(self, 1);
+    });
+    bench.drain(sorted);
+    sc_core::sc_start();
+    // Two passes of 30 keys and one of 10; one pass of 10 and a merge of 40. Four keys per cycle.
+    EXPECT_EQ(unit.stats().sort_busy, 60U / 4 + 3 + (10 + 40 + 3) / 4);
+    // Entries 0 .. 29 of 8 B are in four granules, 30 .. 39 in two, 0 .. 39 in five.
+    EXPECT_EQ(bench.memory->stats(1).bytes_written, (4U + 2 + 5) * 64);
+}
+
+/// A Tile Binner that writes the entries of `frame` by tile, fed with one chunk of all of it.
+struct EntriesBench {
+    UnitBench bench;
+    ListChanges changes{bench.job, false};
+    TileBinner unit;
+    DatedFifo<ProjectedChunk> in{"in", bench.time, 1};
+    DatedFifo<std::uint32_t> out{"out", bench.time, 1};
+
+    EntriesBench(FrameWorkload frame, const TileBinner::Config& config)
+        : bench(std::move(frame)),
+          unit("unit", config, {}, bench.time, bench.job, changes, 64, 1, 1) {
+        unit.in[0].bind(in);
+        unit.out[0].bind(out);
+        bench.connect({&unit.splats, &unit.lists, unit.heads.get()});
+        bench.script([this](Process& self) {
+            in.connect_writer(self);
+            ProjectedChunk chunk;
+            chunk.visible = static_cast<std::uint32_t>(bench.frame.splats.size());
+            chunk.tile_pairs = static_cast<std::uint32_t>(bench.frame.tile_pairs());
+            in.put(self, chunk);
+        });
+        bench.drain(out);
+        sc_core::sc_start();
+    }
+};
+
+// The end of the first list is on the chip: 30 entries read and write its 4 B. The other ten go to
+// memory for the end of theirs.
+TEST(TileBinner, EndsOfListsFarAwayAreNotInItsSram) {
+    TileBinner::Config config;
+    config.entries = ListWriting::Entries;
+    config.head_bytes = 4;
+    const EntriesBench entries(two_tiles(30), config);
+    EXPECT_EQ(entries.unit.stats().groups, 40U);
+    EXPECT_EQ(entries.unit.stats().far_heads, 10U);
+    EXPECT_EQ(entries.unit.sram_bytes_moved(), 2U * 30 * 4);
+    EXPECT_EQ(entries.bench.memory->stats(2).bytes_read, 10U * 64);
+}
+
+class HalfBuffers : public ::testing::TestWithParam<int> {};
+
+// Half of the buffer holds four entries of 8 B: five leave in two groups.
+TEST_P(HalfBuffers, LeaveWhenTheyAreFull) {
+    TileBinner::Config config;
+    config.entries = ListWriting::Combined;
+    config.buffer_bytes = 64;
+    const EntriesBench entries(one_pixel_splats(GetParam()), config);
+    EXPECT_EQ(entries.unit.stats().groups, static_cast<std::uint64_t>((GetParam() + 3) / 4));
+    EXPECT_EQ(entries.unit.stats().entries, static_cast<std::uint64_t>(GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Entries, HalfBuffers, ::testing::Values(4, 5, 8, 9));
+
 } // namespace
 } // namespace degs
