@@ -34,7 +34,7 @@ double growth(const Settings& gscore, const Settings& degs) {
     return ratio(kMany) / ratio(kFew);
 }
 
-TEST(ShapeRecords, EqualRecordsMakeRatiosIndependentOfTheSizeOfTheScene) {
+TEST(LongShapeRecords, EqualRecordsMakeRatiosIndependentOfTheSizeOfTheScene) {
     const Settings all_fp32{"pipeline.records=fp32", "traffic.sh=all"};
     EXPECT_NEAR(growth({}, {}), 1, 0.1);
     EXPECT_NEAR(growth(all_fp32, all_fp32), 1, 0.1);

@@ -286,7 +286,7 @@ TEST(SearchFiles, GoWithTheResultsThatTheyTellOf) {
     EXPECT_FALSE(fs::exists(out + "/reports/000049.json")); // 24 designs on two views
 }
 
-TEST(Evolution, SearchesAMillionDesigns) {
+TEST(LongEvolution, SearchesAMillionDesigns) {
     const Folder folder;
     const std::string file = million_space(folder);
     std::vector<std::string> options = kEvolution;

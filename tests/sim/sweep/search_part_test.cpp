@@ -85,7 +85,7 @@ TEST(SearchParts, OfAnEvolutionAgreeWithOneProcess) {
     expect_same_folder(folder / "whole", folder / "three");
 }
 
-TEST(SearchParts, OfAHalvingAgreeWithOneProcess) {
+TEST(LongSearchParts, OfAHalvingAgreeWithOneProcess) {
     const Folder folder;
     const std::string file = two_view_space(folder);
     EXPECT_EQ(degs(search_words(file, folder / "whole", {})).code, 0);
@@ -95,7 +95,7 @@ TEST(SearchParts, OfAHalvingAgreeWithOneProcess) {
     expect_same_folder(folder / "whole", folder / "two");
 }
 
-TEST(SearchParts, AgreeWhereDesignsFail) {
+TEST(LongSearchParts, AgreeWhereDesignsFail) {
     const Folder folder;
     const std::string file = failing_space(folder);
     const Words options{"--search", "evolution", "--budget", "7"};
