@@ -324,6 +324,46 @@ TEST_F(SmallRunResetFace, AnAbortWithoutAFrameDoesNothingAndThatOfOneRaisesItsIn
     });
 }
 
+// An interrupt that nobody has seen yet stays beside that of the abort, and the next start clears
+// the flag.
+TEST_F(SmallRunResetFace, AnAbortKeepsOtherInterrupts) {
+    run([&](Host& host) {
+        const auto start_and = [&](std::uint32_t command) {
+            host.write(Register::Control, kControlStart);
+            host.write(Register::Control, command);
+            await_end(host);
+        };
+        program(host, cloud, camera);
+        start_and(0);
+        EXPECT_EQ(host.read(Register::IrqStatus), kIrqDone);
+        start_and(kControlAbort);
+        EXPECT_EQ(host.read(Register::Status), kStatusAborted);
+        EXPECT_EQ(host.read(Register::IrqStatus), kIrqDone | kIrqAborted);
+        host.write(Register::IrqStatus, kIrqDone | kIrqAborted);
+        EXPECT_TRUE(host.render());
+        EXPECT_EQ(host.read(Register::Status), kStatusDone);
+    });
+}
+
+// A host that is ahead of time aborts in 100 ns and resets in 400: the frame ends with the first.
+TEST_F(SmallRunResetFace, TheFirstOfTwoStopsHasTheDate) {
+    run([&](Host& host) {
+        program(host, cloud, camera);
+        host.write(Register::Control, kControlStart);
+        sc_core::wait(sc_core::sc_time(300, sc_core::SC_NS));
+        host.decoupled = true;
+        host.ahead = sc_core::sc_time(100, sc_core::SC_NS);
+        host.write(Register::Control, kControlAbort);
+        host.ahead = sc_core::sc_time(400, sc_core::SC_NS);
+        host.write(Register::Control, kControlReset);
+        host.decoupled = false;
+        host.ahead = sc_core::SC_ZERO_TIME;
+        EXPECT_EQ(host.read(Register::Status), kStatusInReset);
+        sc_core::wait(sc_core::sc_time(200, sc_core::SC_NS));
+        EXPECT_EQ(host.read(Register::Status), 0U);
+    });
+}
+
 // The scene is read by transactions, of which one is on the bus.
 TEST(SmallRunResetWhileLoading, ReadsNoMoreAndDrawsNothing) {
     const GaussianCloud cloud = test_cloud();

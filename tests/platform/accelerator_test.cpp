@@ -169,6 +169,32 @@ TEST_F(SmallRunAccelerator, ASceneThatIsWrittenMeanwhileIsAnError) {
         EXPECT_FALSE(host.render());
         EXPECT_EQ(host.error(), AcceleratorError::SceneChanged);
         EXPECT_TRUE(host.render()); // the scene is what it is now
+        bool first = true;
+        p.memory->on_access = [&](std::uint64_t) {
+            for (std::size_t i = 0; first && i < 4 * cloud.sh.size(); i += 4) {
+                p.memory->bytes[kSh + i] ^= 1;
+            }
+            first = false;
+        };
+        EXPECT_FALSE(host.render());
+        EXPECT_EQ(host.error(), AcceleratorError::SceneChanged);
+    });
+}
+
+TEST_F(SmallRunAccelerator, CountersAreThoseOfTheFrame) {
+    Platform p("accelerator", config, cloud);
+    run(p, [&](Host& host) {
+        std::vector<std::uint64_t> counts[2];
+        for (auto& of_frame : counts) {
+            program(host, cloud, camera);
+            EXPECT_TRUE(host.render());
+            for (const Register counter : {Register::Cycles, Register::BytesRead,
+                                           Register::BytesWritten, Register::Fragments}) {
+                of_frame.push_back(host.read_pair(counter));
+                EXPECT_GT(of_frame.back(), 0U);
+            }
+        }
+        EXPECT_EQ(counts[0], counts[1]);
     });
 }
 
@@ -182,12 +208,19 @@ TEST_F(SmallRunAccelerator, ABusErrorEndsTheFrameWithAnErrorAndNotTheSimulation)
         EXPECT_EQ(host.error(), AcceleratorError::BusError);
         EXPECT_EQ(host.read(Register::ErrorDetail), 1U);
         EXPECT_GT(p.memory->refused, 0U);
+        EXPECT_GT(host.read_pair(Register::Fragments), 0U);
         p.memory->refused_from = 2000; // in the geometry
         EXPECT_FALSE(host.render());
         EXPECT_EQ(host.error(), AcceleratorError::LoadError);
+        for (const Register counter :
+             {Register::Cycles, Register::BytesRead, Register::BytesWritten, Register::Fragments}) {
+            EXPECT_EQ(host.read_pair(counter), 0U); // nothing has been drawn
+        }
         p.memory->refused_from = ~std::uint64_t{0};
         host.write(Register::Control, kControlClearError);
         EXPECT_EQ(host.read(Register::Status) & kStatusError, 0U);
+        EXPECT_EQ(host.error(), AcceleratorError::None);
+        EXPECT_EQ(host.read(Register::ErrorDetail), 0U);
         EXPECT_TRUE(host.render());
     });
 }

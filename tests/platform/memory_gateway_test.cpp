@@ -44,6 +44,48 @@ TEST_F(SmallRunMemoryGateway, OnlyStreamsThatCarryTheSceneAreObserved) {
     EXPECT_EQ(seen, (std::vector<std::uint64_t>{64}));
 }
 
+/// Answers the accesses with these errors in turn, then with none.
+struct FailingMemory : sc_core::sc_module {
+    tlm_utils::simple_target_socket<FailingMemory> in;
+    std::vector<tlm::tlm_response_status> answers;
+    explicit FailingMemory(const sc_core::sc_module_name& name)
+        : sc_core::sc_module(name), in("in") {
+        in.register_b_transport(this, &FailingMemory::transport);
+    }
+    void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& /*delay*/) {
+        payload.set_response_status(answers.empty() ? tlm::TLM_OK_RESPONSE : answers.front());
+        answers.erase(answers.begin(), answers.begin() + (answers.empty() ? 0 : 1));
+    }
+};
+
+TEST(SmallRunMemoryGatewayErrors, TheFirstIsKept) {
+    const Timebase time;
+    FailingMemory memory("memory");
+    MemoryPort port("port", time);
+    MemoryGateway gateway("gateway");
+    gateway.out.bind(memory.in);
+    gateway.connect({{&port, {"records", StreamData::Own, ""}}});
+    const Script script("script", [&] {
+        Process process(time);
+        const auto read = [&](const std::vector<tlm::tlm_response_status>& answers) {
+            memory.answers = answers;
+            for (std::size_t i = 0; i < 3; ++i) {
+                port.read(process, 0, 32);
+            }
+        };
+        using Status = tlm::tlm_response_status;
+        read({Status::TLM_GENERIC_ERROR_RESPONSE, Status::TLM_ADDRESS_ERROR_RESPONSE});
+        EXPECT_EQ(gateway.errors(), 2U);
+        EXPECT_EQ(gateway.first_error(), Status::TLM_GENERIC_ERROR_RESPONSE);
+        gateway.clear_errors();
+        EXPECT_EQ(gateway.errors(), 0U);
+        read({Status::TLM_OK_RESPONSE, Status::TLM_BURST_ERROR_RESPONSE});
+        EXPECT_EQ(gateway.errors(), 1U);
+        EXPECT_EQ(gateway.first_error(), Status::TLM_BURST_ERROR_RESPONSE);
+    });
+    sc_core::sc_start();
+}
+
 /// What reaches a target, in order.
 struct Seen {
     std::uint64_t address = 0;

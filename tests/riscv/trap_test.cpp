@@ -148,12 +148,36 @@ TEST(RiscvInterrupt, IsVectoredIfAsked) {
     EXPECT_EQ(machine.core.pc(), kHandler);
 }
 
+// mstatus of a program that sets MPIE to 0 says that interrupts stay off.
+TEST(RiscvInterrupt, StayAsTheyWereBeforeTheTrap) {
+    for (const bool enabled : {false, true}) {
+        Machine machine;
+        machine.core.write_csr(kMstatus, enabled ? kMpieBit : 0);
+        machine.core.write_csr(kMepc, 0x2000);
+        machine.run(kMret);
+        EXPECT_EQ(machine.core.pc(), 0x2000U);
+        EXPECT_EQ(machine.csr(kMstatus), kMppBits | kMpieBit | (enabled ? kMieBit : 0));
+    }
+}
+
+TEST(RiscvCsr, CountersHaveTwoHalves) {
+    Machine machine;
+    machine.run(kNop);
+    machine.run(0x00000073); // a cycle, but no instruction that is done
+    machine.run(kNop);
+    EXPECT_EQ(machine.csr(kMcycle), 3U);
+    EXPECT_EQ(machine.csr(kMinstret), 2U);
+    EXPECT_EQ(machine.csr(kMcycleHigh), 0U);
+    EXPECT_EQ(machine.csr(kMinstretHigh), 0U);
+}
+
 TEST(RiscvWfi, SleepsUntilTheLineEvenIfItMayNotTrap) {
     Machine machine;
     machine.core.write_csr(kMie, kExternalBit);
     machine.run(kWfi);
     EXPECT_TRUE(machine.core.waiting());
     machine.core.step();
+    EXPECT_EQ(machine.csr(kMcycle), 1U); // as the clock of a core that sleeps
     EXPECT_EQ(machine.core.pc(), 0x1004U);
     EXPECT_EQ(machine.core.retired(), 1U);
     machine.core.set_external_interrupt(true);
