@@ -261,10 +261,11 @@ void compare_spans(const std::vector<Prepared>& scenes, const std::string& resol
 
 void run_case(const HardCaseRequest& request, const std::string& resolution, HardResult& result) {
     const HardCase& hard = *result.hard;
-    const int height = resolution_height(resolution);
+    const ImageSize size = image_size(resolution);
+    const int width = size.width.value_or((*size.height * 16 + 8) / 9);
     std::vector<Prepared> scenes;
     std::vector<std::string> problems;
-    for (HardScene& scene : hard.make((height * 16 + 8) / 9, height)) {
+    for (HardScene& scene : hard.make(width, *size.height)) {
         scenes.push_back(prepare(hard, std::move(scene), request.tile_size, problems));
     }
     for (const std::string& problem : problems) {

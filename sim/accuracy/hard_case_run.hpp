@@ -14,7 +14,7 @@ namespace degs::sim {
 struct HardCaseRequest {
     std::vector<std::string> only;        ///< "H1" ...; empty: all
     std::vector<std::string> sets;        ///< as numbers_of() reads them
-    std::vector<std::string> resolutions; ///< of resolution_names(), 16:9; empty: 720p
+    std::vector<std::string> resolutions; ///< of image_size(); names are 16:9
     std::string span_ends;                ///< for every set; empty: each set's own
     int tile_size = 32;                   ///< px
 };

@@ -96,7 +96,7 @@ TEST(SpeedCommand, GivesSamplesTheirIntervals) {
     EXPECT_EQ(speed["intervals"][0]["sampled"], 2);
 }
 
-TEST(SpeedCommand, CountsASampleThatCameToNothing) {
+TEST(LongSpeedCommand, CountsASampleThatCameToNothing) {
     const Folder folder;
     const std::string scene = "synthetic:object,gaussians=3000";
     // So narrow an interval that the sample gives up after its first groups.
