@@ -50,12 +50,16 @@ TrafficResult TraceReplay::run(std::uint64_t accesses, Progress& progress) {
     result.reads = reads_;
     result.writes = writes_;
     result.commands = memory_->commands(last_answer_);
-    result.energy = memory_->energy(last_answer_);
+    result.commands.subtract(before_->commands);
+    result.energy = memory_->energy(last_answer_) - before_->energy;
     return result;
 }
 
 /// Reads on as far as the dates, and the room for what waits, allow.
 void TraceReplay::feed() {
+    if (!before_) {
+        before_ = {memory_->commands(), memory_->energy()};
+    }
     while (has_next_ && waiting_ < kMostAhead) {
         const sc_core::sc_time now = sc_core::sc_time_stamp();
         const sc_core::sc_time date = trace_->dated() ? clock_.at(next_.cycle) : now;

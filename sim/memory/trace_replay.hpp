@@ -3,6 +3,7 @@
 
 #include <array>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include <systemc>
@@ -28,14 +29,18 @@ public:
     TraceReplay(const sc_core::sc_module_name& name, dram::Lpddr5& memory,
                 const dram::Config& config, TraceReader& trace, double clock_ghz);
 
-    /// Runs the simulation until every access has been answered: `accesses` in all. The time counts
-    /// from the date of the first request to the last answer. May be called once.
+    /// Runs the simulation until every access has been answered: `accesses` in all. Time, commands
+    /// and energy count from the date of the first request to the last answer. May be called once.
     TrafficResult run(std::uint64_t accesses, Progress& progress);
 
 private:
     struct Waiting {
         TraceAccess access;
         sc_core::sc_time date; // from which its latency counts, if the trace has dates
+    };
+    struct Idle { // what the memory has done before the first request
+        dram::Channel::Stats commands;
+        dram::Energy energy;
     };
     struct Line {                // one initiator
         bool requesting = false; // between BEGIN_REQ and END_REQ
@@ -56,6 +61,7 @@ private:
     int window_;
     TraceAccess next_; // if has_next_
     bool has_next_;
+    std::optional<Idle> before_;
     std::vector<Line> lines_;
     std::size_t waiting_ = 0; // accesses in all lines
     bool full_ = false;       // feed() goes on when one of them leaves

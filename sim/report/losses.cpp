@@ -5,6 +5,7 @@
 
 #include "base/ratio.hpp"
 #include "modules/kit/accelerator/waiting_causes.hpp"
+#include "sim/simulation/foveated_run.hpp"
 #include "sim/simulation/loss_keys.hpp"
 #include "sim/text/words.hpp"
 
@@ -73,7 +74,7 @@ private:
     /// Whether the memory takes longer for the pixels of a tile than the buffer that reads them
     /// out.
     bool is_written_slower_than_read_out() const {
-        const double pixels = ratio_of(result_.camera.width, 1) * result_.camera.height * frames();
+        const double pixels = ratio_of(drawn_pixels(result_), 1) * frames(); // of all views
         const auto written =
             std::find_if(run_.streams.begin(), run_.streams.end(),
                          [](const StreamUse& s) { return s.name == "frame_buffer"; });

@@ -67,9 +67,13 @@ std::string error_words(const StudyPlan& plan, const Search& search) {
                 errors.push_back(std::abs(*belief.goals[g] / *goal - 1));
             }
         }
+        if (errors.empty()) {
+            continue;
+        }
         std::sort(errors.begin(), errors.end());
-        if (!errors.empty() && errors[errors.size() / 2] > most) {
-            most = errors[errors.size() / 2];
+        const double median = (errors[(errors.size() - 1) / 2] + errors[errors.size() / 2]) / 2;
+        if (median > most) {
+            most = median;
             whose = g;
         }
     }

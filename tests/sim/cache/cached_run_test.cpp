@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 
 #include "scene/ply/ply.hpp"
 #include "scene/synthetic/synthetic.hpp"
@@ -195,24 +196,25 @@ TEST(FrameCache, FindsFramesByEverythingTheyDependOn) {
     EXPECT_FALSE(found("scenf", 16, TileMode::Exact, options));
     EXPECT_FALSE(found("scene", 8, TileMode::Exact, options));
     EXPECT_FALSE(found("scene", 16, TileMode::Reference, options));
-    ProjectionOptions other = options;
-    other.dilation = 0.31;
-    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
-    other = options;
-    other.order = SplatOrder::Distance;
-    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
-    other = options;
-    other.compensated = true;
-    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
-    other = options;
-    other.numbers.format = parse_format("fp16");
-    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
-    other = options;
-    other.numbers.sh_rest = parse_format("q1.7");
-    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
-    other = options;
-    other.numbers.depth_key = parse_format("fp16");
-    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
+    const std::vector<std::function<void(ProjectionOptions&)>> changes{
+        [](auto& other) { other.near_plane *= 2; },
+        [](auto& other) { other.dilation = 0.31; },
+        [](auto& other) { other.jacobian_clamp *= 2; },
+        [](auto& other) { other.alpha_min *= 2; },
+        [](auto& other) { other.cut = 9; },
+        [](auto& other) { other.order = SplatOrder::Distance; },
+        [](auto& other) { other.compensated = true; },
+        [](auto& other) { other.rule = ProjectionRule::Unscented; },
+        [](auto& other) { other.lens = LensRule::Pinhole; },
+        [](auto& other) { other.sigma.kappa += 1; },
+        [](auto& other) { other.numbers.format = parse_format("fp16"); },
+        [](auto& other) { other.numbers.sh_rest = parse_format("q1.7"); },
+        [](auto& other) { other.numbers.depth_key = parse_format("fp16"); }};
+    for (std::size_t c = 0; c < changes.size(); ++c) {
+        ProjectionOptions other = options;
+        changes[c](other);
+        EXPECT_FALSE(found("scene", 16, TileMode::Exact, other)) << c;
+    }
     // A card of a scene says how the scene wants to be drawn.
     sim::SceneCard card;
     card.facts.gaussians = scene.cloud.size();
@@ -223,6 +225,47 @@ TEST(FrameCache, FindsFramesByEverythingTheyDependOn) {
     EXPECT_TRUE(cache.scene("scene")->facts.traits.antialiased);
     camera.position.x += 1e-12;
     EXPECT_FALSE(found("scene", 16, TileMode::Exact, options));
+}
+
+// Tiles of another size hide other pixels of an image with a hole, and of no other.
+TEST(FrameCache, FindsReferencesOfOtherTilesIfNoneIsHidden) {
+    const Folder folder;
+    const sim::FrameCache cache(sim::DiskCache(folder / "c", 1000000));
+    FrameWorkload frame;
+    frame.camera.width = frame.camera.height = 32;
+    frame.tile_mode = TileMode::Exact;
+    sim::Reference reference;
+    reference.image = Image(32, 32);
+    for (const bool hole : {false, true}) {
+        frame.camera.hole = hole ? PixelBox{0, 0, 15, 15} : PixelBox();
+        frame.tile_size = 16;
+        cache.keep("scene", frame, reference);
+        EXPECT_TRUE(cache.reference("scene", frame));
+        frame.tile_size = 8;
+        EXPECT_EQ(cache.reference("scene", frame).has_value(), !hole);
+    }
+}
+
+// Two views at one place of a scene that changes have the frames of one view, and no others.
+TEST(FrameCache, KeepsTheViewsOfAChangingSceneByFrame) {
+    const Folder folder;
+    const sim::FrameCache cache(sim::DiskCache(folder / "c", 100000000));
+    const sim::RunConfig design = sim::load_run_config(config("degs-16"), {}, "");
+    sim::ViewRequest request;
+    request.scene = "synthetic:dynamic,gaussians=20000";
+    request.width = 160;
+    sim::PathRequest one, two;
+    one.frames = two.frames = 2;
+    two.group.cameras = {0, 0};
+    sim::CachedView views(request, two, cache);
+    views.keep(views.frames(design.accelerator()), {});
+    const auto kept = sim::CachedView(request, one, cache).frames(design.accelerator());
+    const auto fresh = sim::CachedView(request, one, {}).frames(design.accelerator());
+    ASSERT_EQ(kept.size(), 2U);
+    ASSERT_NE(fresh[0].tile_splats, fresh[1].tile_splats);
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_EQ(kept[k].tile_splats, fresh[k].tile_splats) << k;
+    }
 }
 
 } // namespace

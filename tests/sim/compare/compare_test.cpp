@@ -101,6 +101,48 @@ TEST(CompareRuns, AgreesWithSingleRuns) {
                 1e9 / (ends[1].get<double>() - ends[0].get<double>()), 1e-3);
 }
 
+/// degs-16 that computes in half precision.
+std::string half_precision(const Folder& folder) {
+    const std::string file = folder / "half.yaml";
+    std::ofstream(file) << "include: " << config("degs-16") << "\npipeline: { numbers: fp16 }\n";
+    return file;
+}
+
+// An image has the error of its own numbers, and an eye changes against itself, not the other eye.
+TEST(CompareRuns, OfEyesAndNumbersAgreeWithSingleRuns) {
+    const Folder folder;
+    const std::vector<std::string> options{"--width", "64", "--eyes", "0.06", "--frames", "2"};
+    const std::string half = half_precision(folder);
+    expect_success(compare({config("degs-16"), half}, folder / "c", options));
+    const nlohmann::json written = comparison_in(folder / "c");
+    std::vector<std::string> single{"run", half, "--scene", kComparedScene, "--out", folder / "r"};
+    single.insert(single.end(), options.begin(), options.end());
+    expect_success(degs(single));
+    const nlohmann::json report = report_in(folder / "r");
+    EXPECT_EQ(written["views"][0]["changes"]["tile_churn"], report["changes"]["tile_churn"]);
+    EXPECT_EQ(written["runs"][1]["image"]["psnr_db"], report["image"]["psnr_db"]);
+    EXPECT_NE(written["runs"][1]["image"]["psnr_db"], written["runs"][0]["image"]["psnr_db"]);
+}
+
+std::size_t rows_of(const std::string& design, const std::string& tables) {
+    std::istringstream lines(tables);
+    std::size_t rows = 0;
+    for (std::string line; std::getline(lines, line);) {
+        rows += line.rfind(design + " ", 0) == 0 ? 1 : 0;
+    }
+    return rows;
+}
+
+// Four tables for each of two views, and two of means.
+TEST(CompareCommand, TellsAViewWhenAllItsRunsHaveEnded) {
+    const Folder folder;
+    const Outcome outcome = compare({config("degs-16"), half_precision(folder)}, folder / "c",
+                                    {"--width", "64", "--cameras", "0,1", "--jobs", "1"});
+    expect_success(outcome);
+    EXPECT_EQ(rows_of("degs-16", outcome.out), 10U) << outcome.out;
+    EXPECT_EQ(rows_of("half", outcome.out), 10U) << outcome.out;
+}
+
 // The reference is that of double whatever a configuration projects in, and made once.
 TEST(CompareRuns, ProjectionsShareTheReference) {
     const Folder folder;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "sim/config/cost_output.hpp"
 #include "sim/simulation/run_config.hpp"
 #include "tests/sim/process/child.hpp"
 
@@ -240,6 +241,11 @@ TEST(CostCommand, PrintsTheBillInThreeForms) {
     EXPECT_NE(sized.out.find("6.724"), std::string::npos) << sized.out;
     expect_mistake(degs({"config", config("gbu-64"), "--cost", "--format", "yaml"}), "json");
     expect_mistake(degs({"config", config("gbu-64"), "--format", "json"}), "--cost");
+}
+
+TEST(CostTables, HaveSizesInUnitsOf1024Bytes) {
+    const std::string table = sim::cost_markdown(bill_of("degs-64", {"packing.bytes=9216"}));
+    EXPECT_NE(table.find("| packing_buffer | 9.00 KB |"), std::string::npos) << table;
 }
 
 TEST(CostCommand, TakesATechnologyFromAFile) {

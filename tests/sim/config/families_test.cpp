@@ -142,6 +142,7 @@ TEST(ConfigDifference, ListsTheKeysThatDiffer) {
     EXPECT_EQ(same.out, "All keys have the same values.\n");
     const Outcome kinds = degs({"config", "--diff", "degs", "gcc", "--format", "markdown"});
     EXPECT_NE(kinds.out.find("| `view_size` | - | 128 |"), std::string::npos) << kinds.out;
+    EXPECT_NE(kinds.out.find("| `span.count` | 8 | - |"), std::string::npos) << kinds.out;
     EXPECT_EQ(degs({"config", "--diff", "degs", "gcc", "--format", "yaml"}).code, 2);
 }
 

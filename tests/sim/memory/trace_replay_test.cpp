@@ -147,6 +147,23 @@ TEST(SmallRunReplay, FollowsTheDatesOfAForeignTrace) {
     EXPECT_LT(replayed["simulated_us"].get<double>(), 0.060);
 }
 
+// A memory stands by for 200 us before the first request; neither its time nor its energy nor its
+// refreshes are those of the trace.
+TEST(SmallRunReplay, CountsFromTheFirstRequest) {
+    const Folder folder;
+    std::ofstream(folder / "late.stl") << "200000: read 0x0\n200010: read 0x40\n";
+    const json replayed = replay(folder / "late.stl");
+    const double us = replayed["simulated_us"].get<double>();
+    EXPECT_LT(us, 0.5);
+    const json& memory = replayed["config"];
+    const double channels = memory["channels"].get<double>(); // 1 mW for 1 us is 1 nJ
+    const double background = replayed["energy"]["background_nj"].get<double>();
+    EXPECT_GE(background, channels * us * memory["energy"]["standby_closed_mw"].get<double>());
+    EXPECT_LE(background, channels * us * memory["energy"]["standby_open_mw"].get<double>());
+    EXPECT_LE(replayed["energy"]["refresh_nj"].get<double>(),
+              channels * memory["energy"]["refresh_all_bank_nj"].get<double>());
+}
+
 // The case of docs/memory.md, in which memory limits the frame.
 TEST(MemoryTrace, TakesTheTimeOfAFrameThatMemoryLimits) {
     const fs::path scene = trained_scenes() / "flowers" / "scene.ply";

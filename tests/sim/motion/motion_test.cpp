@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/motion/motion_output.hpp"
+
 namespace degs::sim {
 namespace {
 
@@ -79,6 +81,15 @@ TEST(Motion, KnowsNoDisplayIfAFrameIsMissing) {
     motion.designs[0].ms.assign(3, std::nullopt);
     judge_motion(motion);
     EXPECT_FALSE(motion.designs[0].ranks);
+}
+
+// One frame in two hundred takes 100 ms, and the axis goes up to it.
+TEST(MotionPicture, ShowsTheWorstFrame) {
+    std::vector<double> ms(200, 4);
+    ms[7] = 100;
+    const std::string svg =
+        motion_latency_svg({"scene", "64×48", false, {}}, motion_of(ms, 100, {100}));
+    EXPECT_NE(svg.find(">100</text>"), std::string::npos);
 }
 
 TEST(Motion, OneFrame) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/plot/log_axis.hpp"
 #include "sim/plot/plot_style.hpp"
 #include "sim/plot/svg.hpp"
 #include "sim/text/words.hpp"
@@ -196,6 +197,32 @@ TEST(UtilizationPlot, PlacesPointsOnALogAxis) {
          {">16<", ">64<", ">1024<", "PEs", "utilization, %", ">degs<", ">other<", ">view<"}) {
         EXPECT_THAT(svg, HasSubstr(words));
     }
+}
+
+// The axis ends with a power of two on either side of all numbers.
+TEST(UtilizationPlot, HasRoomForNumbersBetweenPowersOfTwo) {
+    const std::string svg = utilization_svg("T", {{"view", {{"a", {{48, 0.8}, {96, 0.5}}}}}});
+    for (const char* words : {">32<", ">64<", ">128<"}) {
+        EXPECT_THAT(svg, HasSubstr(words));
+    }
+}
+
+TEST(LogAxis, HasAllRoundValuesInside) {
+    const LogAxis axis{std::log10(0.45), std::log10(55.0), 0, 100};
+    const std::vector<double> ticks = axis.ticks();
+    const std::vector<double> expected{0.5, 1, 2, 5, 10, 20, 50};
+    ASSERT_EQ(ticks.size(), expected.size());
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+        EXPECT_NEAR(ticks[i], expected[i], 1e-12);
+    }
+}
+
+TEST(Ticks, AreTheNextRoundNumberThatNeedsNoMoreLines) {
+    EXPECT_EQ(tick_of(5), 1);
+    EXPECT_EQ(tick_of(5.1), 2);
+    EXPECT_EQ(tick_of(10), 2);
+    EXPECT_EQ(tick_of(26), 10);
+    EXPECT_EQ(tick_of(8, 8), 1);
 }
 
 TEST(UtilizationPlot, ManyPanelsAndNone) {

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "base/parallel.hpp"
 #include "degs/error.hpp"
 #include "sim/process/stopping_signals.hpp"
 #include "sim/process/stopwatch.hpp"
@@ -67,6 +68,24 @@ TEST(ChildProcess, BringsBackWhatTheWorkReturns) {
         EXPECT_FALSE(outcome.failure);
         EXPECT_TRUE(outcome.output == text) << text.size();
     }
+}
+
+TEST(ChildProcess, SharesTheProcessors) {
+    const auto work = [] { return std::to_string(host_threads()); };
+    for (const int at_once : {1, 2, 1000}) {
+        const Children result = run_children({{"a", work}, {"b", work}}, at_once);
+        for (const auto& [job, outcome] : result.outcomes) {
+            EXPECT_EQ(outcome.output, std::to_string(std::max(host_threads() / at_once, 1)));
+        }
+    }
+}
+
+TEST(Failures, TheWorstIsThatOfTheProgram) {
+    EXPECT_FALSE(worst_of({}, "points"));
+    EXPECT_EQ(worst_of({{kUserError, "A."}}, "points")->sentence, "A.");
+    const Failure worst = *worst_of({{kUserError, "A."}, {kInternalError, "B."}}, "points");
+    EXPECT_EQ(worst.code, kInternalError);
+    EXPECT_EQ(worst.sentence, "2 points failed, one of them with: B.");
 }
 
 TEST(ChildProcess, SharesMemoryButKeepsItsChangesToItself) {

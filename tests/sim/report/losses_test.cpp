@@ -3,13 +3,17 @@
 // them.
 #include <sstream>
 
+#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "sim/report/losses.hpp"
+#include "sim/simulation/loss_keys.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
 namespace {
+
+using namespace degs::sim;
 
 /// The line of a run's summary that begins with `name`.
 std::string line_of(const std::string& text, const std::string& name) {
@@ -212,6 +216,67 @@ TEST(Losses, OfOrangeNameTheVectorUnitsAndNotTheArray) {
 }
 
 // Useful cycles and losses fill PEs x cycles.
+/// Frames of so many views of 100 x 100 pixels, whose last ones take as long as all tasks do.
+RunResult waiting_for_pixels(std::size_t views, std::size_t frames, double gb_per_s) {
+    RunResult result;
+    result.camera.width = result.camera.height = 100;
+    result.workload.pixels = std::uint64_t{100} * 100;
+    for (std::size_t v = 0; views > 1 && v < views; ++v) {
+        result.views.push_back({result.camera, result.workload, {}});
+    }
+    AcceleratorResult& run = result.accelerator;
+    run.pes = 64;
+    run.cycles = run.memory_window = 2000;
+    run.window.include(0);
+    run.window.include(999);
+    run.slots[Slot::Useful] = std::uint64_t{64} * 1000;
+    run.frames.resize(frames);
+    run.memory_gb_per_s = gb_per_s;
+    run.readout_pixels = 16; // of 4 B, in cycles of 1 ns
+    run.streams.resize(1);
+    run.streams[0].name = "frame_buffer";
+    run.streams[0].bytes_written = frames * views * result.workload.pixels * 4;
+    result.movable_keys = LossKeys(result).movable();
+    return result;
+}
+
+TEST(Losses, OfPixelsComeFromTheSlowerOfReadoutAndMemoryForAnyNumberOfViews) {
+    for (const auto& [views, frames] : {std::pair(1, 1), {2, 1}, {8, 1}, {1, 3}, {2, 3}}) {
+        const std::vector<Loss> reads_out = losses_of(waiting_for_pixels(views, frames, 65));
+        ASSERT_EQ(reads_out.size(), 1U);
+        EXPECT_EQ(reads_out[0].reason, "after the last task");
+        EXPECT_DOUBLE_EQ(reads_out[0].share, 0.5);
+        EXPECT_THAT(reads_out[0].keys, testing::Contains("raise pixel_buffer.readout_pixels"));
+        const std::vector<Loss> writes = losses_of(waiting_for_pixels(views, frames, 63));
+        ASSERT_EQ(writes.size(), 1U);
+        EXPECT_THAT(writes[0].keys, testing::Contains("raise memory.bandwidth_gb_per_s"));
+    }
+}
+
+// To mend one of two stages that take almost as long would leave the other.
+TEST(Losses, BeforeTheFirstTaskNameAllThatTakeAlmostAsLong) {
+    RunResult result;
+    AcceleratorResult& run = result.accelerator;
+    run.pes = 64;
+    run.cycles = run.memory_window = 1000;
+    run.window.include(500);
+    run.window.include(999);
+    run.slots[Slot::Useful] = std::uint64_t{64} * 500;
+    for (const auto& [name, cycles] :
+         {std::pair("projection", 450.0), {"sorting", 410.0}, {"fetching", 390.0}}) {
+        StageUse stage;
+        stage.name = name;
+        stage.units = 1;
+        stage.busy_cycles = cycles; // 90 %, 82 % and 78 % of the time before the first task
+        stage.prepares = 1;
+        run.stages.push_back(stage);
+    }
+    const std::vector<Loss> losses = losses_of(result);
+    ASSERT_EQ(losses.size(), 1U);
+    EXPECT_EQ(losses[0].reason, "before the first task, for projection and sorting");
+    EXPECT_DOUBLE_EQ(losses[0].share, 0.5);
+}
+
 TEST(Losses, AddUp) {
     sim::RunResult result;
     AcceleratorResult& run = result.accelerator;

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <regex>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sim/compare/comparison_output.hpp"
+#include "sim/results/result_words.hpp"
 
 namespace degs::sim {
 namespace {
@@ -256,6 +259,97 @@ TEST(ComparisonOutput, TextShowsWhatThereIs) {
     const Comparison two =
         compare({"a"}, {{"a", run(1, 0.5), {}}, {"a", of_camera(1, run(4, 0.5)), {}}});
     EXPECT_THAT(comparison_text(two), HasSubstr("geometric means over 2 views"));
+}
+
+/// The cell of a row in the table that has the heading, whose columns two blanks keep apart.
+std::string cell_in(const std::string& text, const std::string& heading, const std::string& row) {
+    const std::regex gap(" {2,}");
+    const auto cells = [&gap](const std::string& line) {
+        return std::vector<std::string>(
+            std::sregex_token_iterator(line.begin(), line.end(), gap, -1), {});
+    };
+    std::optional<std::ptrdiff_t> from_right; // the first column may have no heading
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const std::vector<std::string> all = cells(line);
+        const auto at = std::find(all.begin(), all.end(), heading);
+        from_right = at != all.end() ? std::optional(all.end() - at) : from_right;
+        if (from_right && all.front() == row) {
+            return all.at(all.size() - static_cast<std::size_t>(*from_right));
+        }
+    }
+    return "";
+}
+
+TEST(ComparisonOutput, TablesHaveTheirUnits) {
+    Comparison c = small_comparison();
+    c.rows[0].measures[Measure::DramRead] = 2.5e6;
+    c.rows[1].cycles_low = 4.5e6; // of 5e6
+    c.rows[1].cycles_high = 5.5e6;
+    const std::string text = comparison_text(c);
+    EXPECT_EQ(cell_in(text, "DRAM MB", "degs-64"), "3.50");
+    EXPECT_EQ(cell_in(text, "cycles", "a,\"b\""), "5.00 M ±10.0 %");
+    EXPECT_EQ(cell_in(text, "mJ", "degs-64"), "2.00");
+}
+
+// Half of the area of the second design takes twice as long and twice the energy.
+TEST(ComparisonOutput, EqualAreaScalesTimeAndEnergy) {
+    const Comparison c = compare({"a", "b"}, {{"a", with_area(run(2, 0.8), 3), path(600)},
+                                              {"b", with_area(run(5, 0.2), 6), path(150)}});
+    const std::string text = equal_area_text(c);
+    EXPECT_EQ(cell_in(text, "area ×", "b"), "0.50");
+    EXPECT_EQ(cell_in(text, "ms", "b"), "10.0");
+    EXPECT_EQ(cell_in(text, "path fps", "b"), "75.0");
+    EXPECT_EQ(cell_in(text, "mJ", "b"), "1.60");
+    EXPECT_EQ(cell_in(text, "speed ×", "b"), "0.20");
+}
+
+TEST(ComparisonOutput, CellsWithTheEndOfALineAreQuoted) {
+    for (const char* cell : {"a,b", "a\nb", "a\rb"}) {
+        EXPECT_EQ(csv_cell(cell), "\"" + std::string(cell) + "\"");
+    }
+    EXPECT_EQ(csv_cell("a b"), "a b");
+}
+
+TEST(ComparisonOutput, LinesOfUtilizationAreOfOneView) {
+    const Comparison c =
+        compare({"degs-64", "degs-256"}, {{"degs-64", run(4, 0.5, 64), {}},
+                                          {"degs-256", run(2, 0.4, 256), {}},
+                                          {"degs-64", of_camera(1, run(4, 0.5, 64)), {}},
+                                          {"degs-256", of_camera(1, run(2, 0.4, 256)), {}}});
+    const std::string svg = utilization_picture(c);
+    const std::regex points("<circle");
+    EXPECT_EQ(std::distance(std::sregex_iterator(svg.begin(), svg.end(), points), {}),
+              1 + 2 + 2); // one in the legend, and two in each panel
+}
+
+/// What stands between the brackets behind a key of the data of a page.
+std::string list_in(const std::string& page, const std::string& key) {
+    const std::string begin = "\"" + key + "\":[";
+    const std::size_t at = page.find(begin) + begin.size();
+    return page.substr(at, page.find(']', at) - at);
+}
+
+TEST(ComparisonOutput, ThePageHasTheKeysInWhichDesignsDiffer) {
+    const std::vector<NamedConfig> configs{
+        {"g", default_run_config("gscore", {})},
+        {"a", default_run_config("degs", {"clock_ghz=2"})},
+        {"b", default_run_config("degs", {"clock_ghz=2", "span.count=3"})}};
+    const std::string page = comparison_page(
+        configs, compare({"g", "a", "b"}, {{"g", run(1, 0.5), {}}, {"a", run(1, 0.5), {}}}));
+    const std::string keys = list_in(page, "keys");
+    EXPECT_THAT(keys, HasSubstr("\"clock_ghz\""));      // of the first and the others
+    EXPECT_THAT(keys, HasSubstr("\"span.count\""));     // of the second and the third
+    EXPECT_THAT(keys, Not(HasSubstr("slicing.count"))); // the first has none, the others agree
+}
+
+TEST(ComparisonOutput, ThePageHasNoWordThatEndsItsData) {
+    RunSummary hostile = run(1, 0.5);
+    hostile.view.scene = "<a></script><b></script>";
+    const std::string page = comparison_page({{"a", default_run_config("degs", {})}},
+                                             compare({"a"}, {{"a", hostile, {}}}));
+    EXPECT_EQ(page.find("</script><b>"), std::string::npos);
+    EXPECT_EQ(page.find("<b>"), std::string::npos);
 }
 
 TEST(ComparisonOutput, PicturesExistWhenTheyShowSomething) {

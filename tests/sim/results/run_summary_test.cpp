@@ -93,7 +93,9 @@ TEST(RunSummary, MeasuresAreTheStatistics) {
     RunResult unlimited = some_result();
     unlimited.accelerator.memory_gb_per_s = 0;
     unlimited.error.reset();
-    EXPECT_FALSE(measures_of(unlimited)[Measure::DramRead]);
+    for (const Measure each : {Measure::DramRead, Measure::DramWritten, Measure::DramUtilization}) {
+        EXPECT_FALSE(measures_of(unlimited)[each]) << name_of(each);
+    }
     EXPECT_FALSE(measures_of(unlimited)[Measure::Ssim]);
 }
 

@@ -76,6 +76,50 @@ TEST(RegressionEstimator, IsTheExpansionEstimatorForEqualSizes) {
     EXPECT_NEAR(estimator.total_without(0, 3), 40 * (27.0 - 8) / 5, 1e-3);
 }
 
+// Sixteen blocks are fitted to two sizes: weighted least squares by hand, and the t quantile of
+// 16 - 2 degrees of freedom.
+TEST(RegressionEstimator, LosesADegreeOfFreedomWithEachSize) {
+    constexpr std::size_t kAll = 160, kSeen = 16;
+    std::mt19937 draw(5);
+    std::uniform_real_distribution<double> size(0.5, 1.5);
+    std::vector<TileWork> blocks(kAll, TileWork{0, 0, 0, 0, 0, 0, 0, 0});
+    double cycles = 0, fragments = 0;
+    for (TileWork& block : blocks) {
+        block.cycles = size(draw);
+        block.fragments = size(draw);
+        cycles += block.cycles / kAll;
+        fragments += block.fragments / kAll;
+    }
+    RegressionEstimator estimator(blocks);
+    struct Row {
+        double a, b, weight, y;
+    };
+    std::vector<Row> rows;
+    double aa = 0, ab = 0, bb = 0, ay = 0, by = 0;
+    for (std::size_t i = 0; i < kSeen; ++i) {
+        const double y = size(draw);
+        const double a = blocks[i].cycles / cycles, b = blocks[i].fragments / fragments;
+        estimator.add(i, i, {y});
+        rows.push_back({a, b, 1 / (0.1 + b), y});
+        aa += rows[i].weight * a * a;
+        ab += rows[i].weight * a * b;
+        bb += rows[i].weight * b * b;
+        ay += rows[i].weight * a * y;
+        by += rows[i].weight * b * y;
+    }
+    const double det = aa * bb - ab * ab;
+    double squares = 0;
+    for (const Row& row : rows) {
+        const double fitted = (row.a * (bb * ay - ab * by) + row.b * (aa * by - ab * ay)) / det;
+        const double leverage =
+            row.weight * (row.a * row.a * bb - 2 * row.a * row.b * ab + row.b * row.b * aa) / det;
+        squares += std::pow((row.y - fitted) / (1 - leverage), 2);
+    }
+    const double n = kSeen, all = kAll;
+    const double error = all * std::sqrt(squares / n * (1 - n / all) / n);
+    EXPECT_NEAR(estimator.total(0).half_width, student_t(kSeen - 2) * error, 1e-4 * error);
+}
+
 TEST(RegressionEstimator, KnowsWhatItHasSeenWhole) {
     const std::vector<TileWork> blocks = population(30, 2);
     RegressionEstimator estimator(blocks);

@@ -52,6 +52,11 @@ TEST(SampleDesign, GivesEachGroupOneBlockOfEachStratum) {
         for (std::size_t stratum = 0; stratum < group.size(); ++stratum) {
             EXPECT_EQ(group[stratum] / 10, stratum); // work rises with the number
         }
+        std::set<std::size_t> places; // in the strata, drawn anew for each
+        for (const std::size_t block : group) {
+            places.insert(block % 10);
+        }
+        EXPECT_GT(places.size(), 4U);
     }
 }
 

@@ -62,6 +62,8 @@ TEST_P(SampledRun, AgreesWithTheExactRun) {
         EXPECT_LT(half, 0.2 * value) << path;
     }
     // Known without a sample.
+    EXPECT_EQ(number(facts, "tiles"),
+              number(exact, "workload.tiles") - number(exact, "workload.empty_tiles"));
     EXPECT_EQ(sample["timing"]["preprocessing_cycles"], exact["timing"]["preprocessing_cycles"]);
     EXPECT_EQ(sample["dram"]["streams"]["frame_buffer"], exact["dram"]["streams"]["frame_buffer"]);
     EXPECT_EQ(sample["workload"]["tile_pairs"], exact["workload"]["tile_pairs"]);

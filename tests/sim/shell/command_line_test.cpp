@@ -117,6 +117,7 @@ TEST(BashCompletion, KnowsCommandsOptionsAndValues) {
     EXPECT_EQ(completions({"degs", "scene", "info", "x.ply", "--wi"}), Words{"--width"});
     EXPECT_EQ(completions({"degs", "help", "me"}), Words{"memory"});
     EXPECT_EQ(completions({"degs", "run", "--width", ""}), Words{});
+    EXPECT_EQ(completions({"degs", "scene", "convert", "synthetic:ob"}), Words{"synthetic:object"});
     EXPECT_EQ(completions({"degs", "run", "--scene", "synthetic:ob"}), Words{"synthetic:object"});
     EXPECT_EQ(completions({"degs", "run", "--scene", "synthetic", ":", "ob"}), Words{"object"});
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands other than run, as a user calls them.
+#include "base/grouped_number.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -118,7 +119,9 @@ TEST(SceneCommand, TilesAScene) {
     const Folder folder;
     const std::string file = folder / "tiled.glb";
     const std::string scene = "synthetic:object,gaussians=300";
-    expect_success(degs({"scene", "tile", scene, "--copies", "3x2x2", "--out", file}));
+    const Outcome tiled = degs({"scene", "tile", scene, "--copies", "3x2x2", "--out", file});
+    expect_success(tiled);
+    EXPECT_NE(tiled.out.find(grouped(3600)), std::string::npos) << tiled.out;
     const Outcome info = degs({"scene", "info", file, "--json", "--camera", "0"});
     expect_success(info);
     const auto told = nlohmann::json::parse(info.out);

@@ -50,6 +50,10 @@ TEST(FrameChanges, FollowTheirFormulas) {
     lengths[7] = lengths[9] = 1;
     const FrameWorkload single = frame_with(lengths, {});
     EXPECT_EQ(frame_changes({&single}).p99_tile_candidates, 1);
+    std::vector<std::uint64_t> fewer(99, 1);
+    fewer[7] = 50;
+    const FrameWorkload narrow = frame_with(fewer, {});
+    EXPECT_EQ(frame_changes({&narrow}).p99_tile_candidates, 50); // rank 98.01 is the last of 99
 }
 
 TEST(FrameChanges, GiniOfKnownLists) {

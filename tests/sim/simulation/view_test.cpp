@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "degs/error.hpp"
+#include "sim/simulation/simulation.hpp"
 #include "sim/simulation/view.hpp"
+#include "sim/simulation/view_group.hpp"
 
 namespace degs::sim {
 namespace {
@@ -50,6 +52,45 @@ TEST(Resize, LimitsThePixels) {
     Camera huge = full_hd();
     huge.width = huge.height = 60000; // a camera file may ask for too much, too
     EXPECT_THROW(resize(huge, {}, {}), InputError);
+}
+
+TEST(Crop, MayReachTheLastPixelAndNoFurther) {
+    const Camera part = resize_and_crop(full_hd(), 192, {}, "182,98,10x10");
+    EXPECT_EQ(part.width, 10);
+    EXPECT_EQ(part.height, 10);
+    EXPECT_THROW(resize_and_crop(full_hd(), 192, {}, "182,98,11x10"), InputError);
+    EXPECT_THROW(resize_and_crop(full_hd(), 192, {}, "182,98,10x11"), InputError);
+}
+
+TEST(Eyes, AreApartInSceneUnits) {
+    PathRequest path;
+    path.frames = 2;
+    path.group.eyes_m = 0.25;
+    path.group.units_per_metre = 8;
+    PathSource source;
+    source.camera_at = [](int) { return full_hd(); };
+    source.stands_still = true;
+    const std::vector<Camera> eyes = cameras_of_frames(path, source);
+    ASSERT_EQ(eyes.size(), 4U); // of each frame the left one first
+    for (const std::size_t left : {0U, 2U}) {
+        EXPECT_DOUBLE_EQ(glm::distance(eyes[left].position, eyes[left + 1].position), 2);
+    }
+}
+
+/// Four tiles of 16 px in a row: the first lists a splat, and two are below another view.
+TEST(WorkloadFacts, LeaveOutHiddenTiles) {
+    FrameWorkload frame;
+    frame.camera.width = 64;
+    frame.camera.height = 16;
+    frame.camera.hole = {16, 0, 47, 15};
+    frame.tile_size = 16;
+    frame.tiles_x = 4;
+    frame.tiles_y = 1;
+    frame.tile_begin = {0, 1, 1, 1, 1};
+    const WorkloadFacts facts = facts_of(frame);
+    EXPECT_EQ(facts.tiles, 2U);
+    EXPECT_EQ(facts.empty_tiles, 1U);
+    EXPECT_EQ(facts.pixels, 2U * 16 * 16);
 }
 
 TEST(Resolution, NamesAreHeights) {

@@ -2,6 +2,7 @@
 // A number format that does not reach far enough for a scene is named.
 #include <algorithm>
 
+#include "sim/simulation/warnings.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -36,6 +37,19 @@ TEST(SmallRunWarnings, NameTheFormatThatSaturates) {
         << outcome.err;
     const auto warnings = report_in(folder / "out").at("warnings");
     EXPECT_NE(std::find(warnings.begin(), warnings.end(), sentence), warnings.end()) << warnings;
+}
+
+TEST(NearPlaneWarnings, TellOfTheFrameThatLosesMost) {
+    std::vector<FrameWorkload> frames(3);
+    const std::uint64_t lost[] = {2, 7, 0};
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        frames[f].gaussians = 10;
+        frames[f].culled.near = frames[f].culled.near_in_view = lost[f];
+    }
+    const auto sentences = sim::near_plane_warnings({&frames[0], &frames[1], &frames[2]});
+    ASSERT_EQ(sentences.size(), 1U);
+    EXPECT_NE(sentences[0].find("removes 7 of 10 Gaussians"), std::string::npos) << sentences[0];
+    EXPECT_TRUE(sim::near_plane_warnings({&frames[2]}).empty());
 }
 
 TEST(SmallRunWarnings, SinglePrecisionHasNone) {

@@ -7,23 +7,39 @@ namespace {
 
 TEST(SmallRunSoc, LatencyRisesWithTheLoadAndPixelsStay) {
     const Folder folder;
-    const Outcome outcome =
-        degs({"soc", config("degs-16"), "--scene", "synthetic:object,gaussians=3000", "--width",
-              "160", "--load", "0", "120", "--cores", "2", "--out", folder / "out"});
+    const Outcome outcome = degs(
+        {"soc", config("degs-16"), "--scene", "synthetic:object,gaussians=3000", "--width", "160",
+         "--load", "0", "60", "120", "--cores", "2", "--refresh", "1000", "--out", folder / "out"});
     expect_success(outcome);
     EXPECT_NE(outcome.out.find("the same under every load"), std::string::npos) << outcome.out;
     const auto written = nlohmann::json::parse(read_file(folder / "out/soc.json"));
-    ASSERT_EQ(written["points"].size(), 2U);
+    ASSERT_EQ(written["points"].size(), 3U);
     const auto& alone = written["points"][0];
-    const auto& loaded = written["points"][1];
+    const auto& loaded = written["points"][2];
     EXPECT_EQ(alone["cpu_gb_per_s"], 0.0);
     EXPECT_GT(loaded["cpu_gb_per_s"], 10.0);
     EXPECT_LE(loaded["cpu_gb_per_s"], 121.0); // offered, and one line per core more
     EXPECT_GT(loaded["latency_ns"], alone["latency_ns"]);
     EXPECT_EQ(loaded["bytes_written"], alone["bytes_written"]);
     EXPECT_EQ(loaded["fragments"], alone["fragments"]);
+    // A thousand pictures of 120 rows a second; nothing is shown before the first frame is there.
+    const double row_gb_per_s = 160 * 4 / loaded["latency_ns"].get<double>();
+    EXPECT_EQ(alone["display_gb_per_s"], 0.0);
+    EXPECT_NEAR(loaded["display_gb_per_s"].get<double>(), 1e-9 * 1000 * 120 * 160 * 4,
+                row_gb_per_s);
     EXPECT_GT(written["psnr_db"], 45.0); // 8 bits alone: 20 log10(255 sqrt 12) = 58.9 dB
     EXPECT_NE(read_file(folder / "out/soc.svg").find("<svg"), std::string::npos);
+}
+
+TEST(SmallRunSoc, LoadsGoUpToThreeQuartersOfThePeak) {
+    const Folder folder;
+    expect_success(degs({"soc", config("degs-16"), "--scene", "synthetic:object,gaussians=20",
+                         "--width", "32", "--cores", "1", "--out", folder / "out"}));
+    const auto points = nlohmann::json::parse(read_file(folder / "out/soc.json"))["points"];
+    ASSERT_EQ(points.size(), 7U);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_DOUBLE_EQ(points[i]["offered_gb_per_s"], 204.8 * static_cast<double>(i) / 8);
+    }
 }
 
 // The traffic of each frame is in the time of that frame.

@@ -135,6 +135,9 @@ TEST(Judgement, TakesTheMeanOrTheWorstOfTheViews) {
     EXPECT_EQ(*verdicts[1].goals[2], 1);
     EXPECT_TRUE(verdicts[0].on_front && verdicts[1].on_front);
     EXPECT_FALSE(judged("worst(latency_ms),area_mm2", "")[0].on_front);
+    EXPECT_EQ(*judged("max:worst(latency_ms)", "")[0].goals[0], 1); // of what shall be large
+    EXPECT_EQ(*judged("max:worst(latency_ms)", "")[1].goals[0], 2);
+    EXPECT_EQ(*judged("max:latency_ms-1", "")[0].goals[0], 0); // the mean of 0 and 3
 }
 
 TEST(Judgement, LooksAtLimits) {

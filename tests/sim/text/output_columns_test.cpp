@@ -34,6 +34,12 @@ TEST(OutputColumns, BreaksAtSeparatorsFirst) {
               "useful 49.6 %  boundary 6.8\n  drain 0.0");
 }
 
+TEST(OutputColumns, LeavesLinesAloneThatJustFit) {
+    const std::string line = "one two · three";
+    EXPECT_EQ(folded(line, 15, 2), line);
+    EXPECT_EQ(folded(line, 14, 2), "one two\n  three");
+}
+
 TEST(OutputColumns, NeverBreaksANumberOrItsUnit) {
     for (std::size_t width = 1; width < 40; ++width) {
         const std::string text = folded("there are 210 422 Gaussians in 54.5 MB of memory", width);
@@ -68,6 +74,10 @@ TEST(OutputColumns, GoesOnBelowColumnByColumn) {
         const Environment wide("COLUMNS", "200");
         EXPECT_EQ(table.text(), "design      cycles  milliseconds  frames\n"
                                 "degs-64  1 000 000          1.00       7\n");
+    }
+    {
+        const Environment just("COLUMNS", "40"); // 7 + 2 + 9 + 2 + 12 + 2 + 6
+        EXPECT_EQ(table.text().find("\n\n"), std::string::npos);
     }
     const Environment narrow("COLUMNS", "34");
     EXPECT_EQ(table.text(), "design      cycles  milliseconds\n"

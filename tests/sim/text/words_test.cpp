@@ -54,10 +54,18 @@ TEST(Words, Scaled) {
     EXPECT_EQ(scaled(0.0), "0");
     EXPECT_EQ(scaled(999.4), "999");
     EXPECT_EQ(scaled(999.6), "1.00 k");
+    EXPECT_EQ(scaled(1000.0), "1.00 k");
     EXPECT_EQ(scaled(54512345.0), "54.5 M");
     EXPECT_EQ(scaled(1e18), "1000000 T");
     EXPECT_EQ(percent(0.8336), "83.4");
     EXPECT_EQ(percent(0.5, 0), "50");
+}
+
+TEST(Words, TimesHaveTwoUnits) {
+    EXPECT_EQ(time_words(59.4), "59 s");
+    EXPECT_EQ(time_words(61), "1 min 1 s");
+    EXPECT_EQ(time_words(3600), "1 h 0 min");
+    EXPECT_EQ(time_words(2 * 3600 + 5 * 60 + 59), "2 h 5 min");
 }
 
 TEST(Words, Progress) {

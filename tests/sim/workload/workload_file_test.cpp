@@ -11,7 +11,9 @@
 #include "scene/synthetic/synthetic.hpp"
 #include "sim/simulation/frame_checks.hpp"
 #include "sim/workload_file/file_layout.hpp"
+#include "sim/workload_file/list_block.hpp"
 #include "sim/workload_file/splat_block.hpp"
+#include "sim/workload_file/workload_head.hpp"
 
 namespace degs::sim_test {
 namespace {
@@ -119,6 +121,70 @@ TEST(WorkloadFile, GivesTheFrameBack) {
     EXPECT_EQ(read.tile_splats, frame.tile_splats);
     EXPECT_EQ(read.tiles_touched, frame.tiles_touched);
     EXPECT_EQ(read.culled.off_screen, frame.culled.off_screen);
+}
+
+TEST(WorkloadFile, HoldsAFrameForEachRuleOfProjection) {
+    const ProjectionOptions plain;
+    EXPECT_TRUE(sim::same_projection(plain, ProjectionOptions()));
+    std::vector<ProjectionOptions> others(11, plain);
+    others[0].near_plane = 0.1;
+    others[1].dilation = 0.1;
+    others[2].jacobian_clamp = 1.1;
+    others[3].alpha_min = 1.0 / 128;
+    others[4].cut = 9;
+    others[5].order = SplatOrder::Distance;
+    others[6].compensated = true;
+    others[7].rule = ProjectionRule::Unscented;
+    others[8].sigma.alpha *= 2;
+    others[9].lens = LensRule::Pinhole;
+    others[10].numbers.format = parse_format("fp16");
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        EXPECT_FALSE(sim::same_projection(plain, others[i])) << i;
+    }
+}
+
+/// What check_whole() says of a block and one splat more, whose depth this is.
+std::string check_of_blocks(double last_depth) {
+    FrameWorkload frame;
+    frame.splats.resize(sim::kSplatsPerBlock + 1);
+    for (std::size_t i = 0; i < frame.splats.size(); ++i) {
+        frame.visible_of.push_back(static_cast<std::uint32_t>(i));
+        frame.splats[i].id = static_cast<std::uint32_t>(i);
+        frame.splats[i].depth = 1 + 1e-3 * static_cast<double>(i);
+    }
+    frame.gaussians = frame.splats.size();
+    frame.splats.back().depth = last_depth;
+    try {
+        sim::SplatUnpacker(kName, frame).check_whole("frame 0");
+        return "";
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+TEST(HostileWorkloadFile, RefusesBlocksOutOfOrder) {
+    EXPECT_THAT(check_of_blocks(2), HasSubstr("splat 16384 is not behind the one before it"));
+    EXPECT_THAT(check_of_blocks(100), HasSubstr("Gaussian 0 has no splat")); // no block was read
+}
+
+/// What is said of one list of `entries` in a frame of so many splats.
+std::string refusal_of_list(std::uint64_t entries, std::uint64_t splats) {
+    FrameWorkload frame;
+    frame.tile_begin = {0, entries};
+    const std::string block = sim::pack_lengths(frame);
+    std::vector<std::uint64_t> tile_begin(2);
+    try {
+        sim::unpack_lengths(kName, "lists", block, splats, entries, tile_begin);
+        EXPECT_EQ(tile_begin, frame.tile_begin);
+        return "";
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+TEST(HostileWorkloadFile, RefusesAListOfMoreThanAllSplats) {
+    EXPECT_EQ(refusal_of_list(3, 3), "");
+    EXPECT_THAT(refusal_of_list(4, 3), HasSubstr("tile 0 lists 4 splats; at most the 3"));
 }
 
 TEST(HostileWorkloadFile, SaysWhatIsWrong) {
