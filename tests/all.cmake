@@ -2,8 +2,8 @@
 # What tests/run.sh --all adds to the core suite, beside the sanitizers: everything here has the
 # label `all`. What must be built for it is there with DEGS_ALL_TESTS only.
 
-# degs_all_test(<name> [COST <s>] [ENVIRONMENT …] [EXPECT <regex>] COMMAND …): a test of the outer circle;
-# EXPECT is what its output must match. Exit code 77 says that a tool of it is missing.
+# degs_all_test(<name> [COST <s>] [ENVIRONMENT …] [EXPECT <regex>] COMMAND …): a test of the outer
+# circle; EXPECT is what its output must match. Exit code 77 says that a tool of it is missing.
 function(degs_all_test name)
     cmake_parse_arguments(ARG "" "COST;EXPECT" "ENVIRONMENT;COMMAND" ${ARGN})
     add_test(NAME ${name} COMMAND ${ARG_COMMAND})
@@ -40,8 +40,8 @@ if(DEGS_ALL_TESTS AND TARGET degs_sim)
     degs_tests(examples DEPENDS row_sweep degs::accuracy LABEL all)
     target_compile_definitions(degs_examples_tests PRIVATE DEGS_PROGRAM="$<TARGET_FILE:own-degs>")
     add_dependencies(degs_examples_tests own-degs)
-    # It configures the example outside and compiles its files; all of DeGS would take minutes, and is
-    # built only with DEGS_SLOW_TESTS=1.
+    # It configures the example outside and compiles its files; all of DeGS would take minutes, and
+    # is built only with DEGS_SLOW_TESTS=1.
     degs_all_test(packaging/OwnAccelerator COST 30 COMMAND ${here}/packaging/own_accelerator.sh
                   ${PROJECT_BINARY_DIR} ${CMAKE_CXX_COMPILER})
 endif()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -D PROGRAM= -D ROOM= -D COST= -D LABEL= -D ONLY= -D OUT= -P suites.cmake: writes a CTest test for
-# each suite of a test program. A suite, not a test, because starting the program costs more than
-# most tests do; within a suite each test is a process of its own (test_main.cpp).
+# cmake -D PROGRAM= -D ROOM= -D COST= -D LABEL= -D ONLY= -D OUT= -P suites.cmake: writes a CTest
+# test for each suite of a test program. A suite, not a test, because starting the program costs
+# more than most tests do; within a suite each test is a process of its own (test_main.cpp).
 #
 # Labels: `asan` for Hostile* (broken and malicious input) and SmallRun* (whole simulations of a
 # second or less), which run once more under the sanitizers; `shape` for Shape* (how results move
