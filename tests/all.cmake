@@ -69,6 +69,7 @@ if(TARGET degs_program)
     # One design that deadlocked at 4K; scripts/all_designs.sh runs the others, too.
     degs_all_test(sim/DesignAtEveryResolution COST 10 COMMAND ${scripts}/all_designs.sh
                   ENVIRONMENT ${program} DESIGNS=gscore-1024 SCENES=synthetic:object REFERENCE=no)
+    degs_all_test(sim/PagesInChromium COST 60 COMMAND ${here}/sweep/pages.sh $<TARGET_FILE:degs_program> ${configs})
     degs_all_test(sim/JobArrayOnSlurm COST 60 COMMAND ${here}/sweep/slurm.sh $<TARGET_FILE:degs_program> ${configs})
     degs_all_test(sim/RecipesOfClusters COST 20
                   COMMAND ${here}/sweep/clusters.sh $<TARGET_FILE:degs_program> ${PROJECT_SOURCE_DIR})

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# pages.sh PROGRAM CONFIGS: opens the pages of a sweep and of a comparison in headless Chromium, 390
-# and 1400 px wide, dark and light, uses them, and fails for any message on the console. Exits with
-# 77 if there is no Chromium.
+# pages.sh PROGRAM CONFIGS [--one]: opens the pages of a sweep and of a comparison in headless
+# Chromium, 390 and 1400 px wide, dark and light, uses them, and fails for any message on the
+# console. With --one, only the page of the sweep, wide and dark. Exits with 77 if there is no
+# Chromium.
 set -euo pipefail
-program=$1 configs=$2
+program=$1 configs=$2 widths=(390 1400) schemes=(0 1) # dark, light
+[[ ${3:-} != --one ]] || { widths=(1400) schemes=(0); }
 command -v chromium >/dev/null || { echo "skipped: chromium is not installed (scripts/install.sh --tests)"; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -98,8 +100,8 @@ HTML
 failed=0
 try() { # PAGE ROWS ALL DESIGN MEAN
     local page=$1 width scheme log dom seen
-    for width in 390 1400; do
-        for scheme in 0 1; do # dark, light
+    for width in "${widths[@]}"; do
+        for scheme in "${schemes[@]}"; do
             log=$folder/log dom=$folder/dom
             chromium --headless --no-sandbox --disable-gpu --allow-file-access-from-files --user-data-dir="$folder/user" \
                 --blink-settings=preferredColorScheme=$scheme --enable-logging=stderr --v=0 --window-size=1500,1000 \
@@ -116,6 +118,7 @@ try() { # PAGE ROWS ALL DESIGN MEAN
     done
 }
 try sweep 6 12 degs-64 '6 geometric'
+[[ ${3:-} != --one ]] || exit "$failed"
 try compare 2 2 gscore-16 none
 # Linked keys are one axis, and ticks are the values themselves.
 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$folder/user" --window-size=1500,1000 \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hard cases hold for every number set: all of them at 320x180, and in Long* at 720p and those
+// The hard cases hold for every number set: all of them at 640x360, and in Long* at 720p and those
 // that break at 8K.
 #include <algorithm>
 
@@ -46,7 +46,7 @@ void expect_all_hold(const std::string& resolution) {
 }
 
 TEST(HardCases, AllHold) {
-    expect_all_hold("320x180");
+    expect_all_hold("640x360");
 }
 
 TEST(LongHardCases, AllHoldAt720p) {
