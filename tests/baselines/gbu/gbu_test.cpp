@@ -230,13 +230,19 @@ TEST_P(RowGenerationCost, IsThatOfItsBusyCycles) {
     sc_core::sc_start();
     const AcceleratorResult& result = run.result();
     const double rows = config.bill().block("row_generation").full_rate; // per cycle
-    double busy = 0, done = 0;
+    double busy = 0, done = 0, queued = 0;
     for (const StageUse& stage : result.stages) {
         busy += stage.name == "row_generation" ? stage.busy_cycles / stage.units : 0;
     }
     for (const cost::Activity& activity : result.activity) {
         done += activity.block == "row_generation" ? activity.operations : 0;
+        queued += activity.block == "row_queues" ? activity.operations : 0;
     }
+    // Entries are written and read, also those that a Row PE drops.
+    const auto entries = sum_of(run.gbu().engines(), &gbu::TileEngine::Stats::entries);
+    const auto dropped = sum_of(run.gbu().engines(), &gbu::TileEngine::Stats::entries_dropped);
+    EXPECT_GT(dropped, 0U);
+    EXPECT_EQ(queued, static_cast<double>(2 * (entries + dropped) * config.engines.entry_bytes));
     EXPECT_GT(busy, 0.01 * static_cast<double>(result.cycles));
     EXPECT_LE(busy, static_cast<double>(result.cycles));
     EXPECT_NEAR(done, busy * rows, 1e-9 * done);

@@ -216,6 +216,33 @@ TEST(TileEngine, WaitingForAContextIsBlocked) {
     EXPECT_EQ(bench.stats().slots[Slot::Useful], 20U);
 }
 
+// The third tile waits for its context, too; what the second has waited is over.
+TEST(TileEngine, EveryWaitForAContextIsBlockedOnce) {
+    const std::vector<ProjectedSplat> splats{one_row(0, 9, 4), one_row(16, 25, 4),
+                                             one_row(32, 41, 4)};
+    TileEngineBench bench(small_engine(), make_frame(splats, 48, 16, 16));
+    bench.context_dates = {60, 100};
+    bench.run(bench.lists({0, 1, 2}));
+    const Cycle end = bench.first_push() + 1 + 11;
+    EXPECT_EQ(bench.stats().window.last, 100U + 11);
+    EXPECT_EQ(bench.stats().slots[Slot::Blocked], 16 * ((60 - end) + (100 - 72)));
+}
+
+// Row 0 has five splats of its own before three that end every row, for itself the second of them:
+// generation is done with it first, and its pixels end last.
+TEST(TileEngine, ATileEndsWithItsLastSlot) {
+    std::vector<ProjectedSplat> splats = many(5, one_row(0, 15, 0, 0.1));
+    for (const ProjectedSplat& splat : many(3, blanket(8, 8, 2000, 1))) {
+        splats.push_back(splat);
+    }
+    TileEngineBench bench(small_engine(), make_frame(splats, 16, 16, 16));
+    bench.run(bench.lists({0}));
+    const Cycle end = bench.first_push() + 1 + 6 * 17 + 15;
+    EXPECT_TRUE(bench.units[0]->tile_state.at(0).second.all_ended);
+    EXPECT_EQ(bench.units[0]->tile_state.at(0).first, end + 5);
+    EXPECT_EQ(bench.done(), end + 5);
+}
+
 TEST(TileEngine, TheNextTileWaitsForAllPes) {
     std::vector<ProjectedSplat> splats{one_row(0, 9, 4), one_row(16, 25, 8)};
     TileEngineBench bench(small_engine(), make_frame(splats, 32, 16, 16), 1, 2);
