@@ -33,12 +33,12 @@ std::vector<fs::path> entries_of(const std::string& folder) {
 }
 
 /// Long enough to be kept.
-const char* const kLarge = "synthetic:outdoor,gaussians=100000";
+const char* const kLarge = "synthetic:outdoor,gaussians=40000";
 
 std::string run_to(const std::string& out, const std::string& scene,
                    const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"run", config("degs-16"), "--scene", scene, "--out",
-                                       out,   "--width",         "400"};
+                                       out,   "--width",         "300"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_success(degs(arguments));
     auto report = report_in(out);
@@ -73,7 +73,7 @@ TEST(CachedRun, GivesWhatAFreshRunGives) {
 // Every frame of a scene that changes is kept by itself, and found only as that frame.
 TEST(CachedRun, KeepsTheFramesOfASceneThatChanges) {
     const Folder folder;
-    const std::string scene = "synthetic:dynamic,gaussians=60000";
+    const std::string scene = "synthetic:dynamic,gaussians=30000";
     const std::vector<std::string> frames{"--frames", "3"};
     const std::string fresh = run_to(folder / "fresh", scene, frames);
     const UsersCache cache(folder / "cache");
@@ -88,7 +88,7 @@ TEST(CachedRun, NoticesAChangedFileOfASequence) {
     const Folder folder;
     fs::create_directories(folder / "scene");
     const auto write = [&folder](const char* name, std::uint64_t seed) {
-        write_ply(make_synthetic({"outdoor", 60000, seed}).cloud, folder / name);
+        write_ply(make_synthetic({"outdoor", 40000, seed}).cloud, folder / name);
     };
     write("scene/1.ply", 1);
     write("scene/2.ply", 2);
@@ -108,14 +108,14 @@ TEST(CachedRun, NoticesAChangedFileOfASequence) {
 TEST(CachedRun, RepeatsWhatTheReaderOfTheSceneSaid) {
     const Folder folder;
     const std::string plain = folder / "plain.ply", file = folder / "said.ply";
-    write_ply(make_synthetic({"outdoor", 100000, 1}).cloud, plain);
+    write_ply(make_synthetic({"outdoor", 40000, 1}).cloud, plain);
     std::string bytes = read_file(plain);
     bytes.insert(bytes.find("element"), "comment Vertical axis: z\n");
     std::ofstream(file, std::ios::binary) << bytes;
     const UsersCache cache(folder / "cache");
     for (const char* const out : {"first", "second"}) {
         const Outcome run = degs({"run", config("degs-16"), "--scene", file, "--out", folder / out,
-                                  "--width", "400", "--no-reference"});
+                                  "--width", "300", "--no-reference"});
         ASSERT_EQ(run.code, 0) << run.err;
         const auto warnings = report_in(folder / out).at("warnings");
         ASSERT_GE(warnings.size(), 1U) << out;
@@ -140,8 +140,8 @@ TEST(CachedRun, NoticesAChangedScene) {
     const UsersCache cache(folder / "cache");
     const std::string scene = folder / "scene.ply";
     const auto write = [&scene](const char* seed) {
-        expect_success(degs({"scene", "generate", "outdoor", "--gaussians", "100000", "--seed",
-                             seed, "--out", scene}));
+        expect_success(degs({"scene", "generate", "outdoor", "--gaussians", "40000", "--seed", seed,
+                             "--out", scene}));
     };
     write("1");
     const std::string first = run_to(folder / "o", scene);

@@ -24,11 +24,10 @@ std::string study(const Folder& folder, const std::string& lines) {
 
 const char* const kTwelve = "axes:\n  gaussian_buffer.bytes: x1/2..x2 x2\n"
                             "  packing.bytes: x1/2..x1 x2\ncameras: [0, 1]\n";
-/// 5 x 5 x 4 x 2, of which all can be built.
-const char* const kTwoHundred = "axes:\n  gaussian_buffer.bytes: x1/2..x8 x2\n"
-                                "  packing.bytes: x1..x16 x2\n"
-                                "  memory.bandwidth_gb_per_s: 51.2GB/s..409.6GB/s x2\n"
-                                "  clock_ghz: [1, 2]\n";
+/// 5 x 3 x 4, of which all can be built.
+const char* const kSixty = "axes:\n  gaussian_buffer.bytes: x1/2..x8 x2\n"
+                           "  packing.bytes: x1..x4 x2\n"
+                           "  memory.bandwidth_gb_per_s: 51.2GB/s..409.6GB/s x2\n";
 
 Outcome sweep(const std::string& file, const std::string& out,
               const std::vector<std::string>& more = {}) {
@@ -186,11 +185,11 @@ bool killed_after(std::chrono::milliseconds time, const std::string& file, const
 // At random moments, three times: no finished point is lost or made again, and the bytes agree.
 TEST(SweepRuns, SurviveBeingKilled) {
     const Folder folder;
-    const std::string file = study(folder, kTwoHundred);
+    const std::string file = study(folder, kSixty);
     const auto start = std::chrono::steady_clock::now();
     expect_success(sweep(file, folder / "whole"));
     const auto whole = std::chrono::steady_clock::now() - start;
-    ASSERT_EQ(finished_in(folder / "whole").size(), 200U);
+    ASSERT_EQ(finished_in(folder / "whole").size(), 60U);
     std::mt19937 random(std::random_device{}());
     std::map<std::string, fs::file_time_type> before;
     int killed = 0;
