@@ -27,6 +27,12 @@ add_library(degs_sources INTERFACE)
 add_library(degs::sources ALIAS degs_sources)
 target_include_directories(degs_sources INTERFACE ${PROJECT_SOURCE_DIR}/src)
 
+# degs_compiled_fast(<target>): for sources in which a run spends next to none of its time, such as
+# those that read and write text. -Og compiles them in two thirds of the time of -O2.
+function(degs_compiled_fast target)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og>)
+endfunction()
+
 # degs_library(<room> DEPENDS <targets…>): the library of src/<room>, also known as degs::<room>.
 # A room that has headers only, or nothing yet, is an INTERFACE library of the same name.
 function(degs_library room)

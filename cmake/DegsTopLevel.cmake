@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Comfort for who builds this project alone; a platform that embeds it keeps its own choices.
 # No precompiled headers here: clang-tidy stumbles over those of g++. The tests have one, see
-# tests/precompiled. The presets release and asan compile 16 sources of a target at a time
+# tests/precompiled. The presets release and asan compile 16 or 30 sources of a target at a time
 # (CMAKE_UNITY_BUILD), which takes less than half the time because most of it goes into headers;
 # preset dev and `scripts/tidy.sh --alone` take every source alone and so see an include that is
 # missing. Names in unnamed namespaces must therefore differ within a folder.

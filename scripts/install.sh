@@ -8,9 +8,10 @@ packages=(
     g++ cmake ninja-build pkg-config
     libsystemc-dev libglm-dev libopenexr-dev libpng-dev zlib1g-dev libzstd-dev libzip-dev libwebp-dev
     libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinygltf-dev libxxhash-dev libpugixml-dev
+    libjemalloc-dev
 )
 test_packages=(chromium libgtest-dev libgmock-dev libbenchmark-dev clang clang-format clang-tidy libclang-rt-14-dev
-    ccache gcc-riscv64-unknown-elf jupyter-nbconvert libxml2-utils mandoc mkdocs-material munge mypy procps
+    ccache dpkg-dev file gcc-riscv64-unknown-elf jupyter-nbconvert libxml2-utils mandoc mkdocs-material munge mypy procps
     pyflakes3 python3 python3-ipykernel python3-jsonschema python3-matplotlib python3-numpy python3-pandas
     python3-pil python3-pip python3-pytest python3-setuptools python3-tqdm python3-wheel python3-yaml slurm-wlm
     verilator zsh)

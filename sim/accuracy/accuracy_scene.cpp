@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole images of number sets against the double-precision reference.
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
-#include <regex>
 
 #include "accuracy/data_path_renderer.hpp"
 #include "accuracy/flip/flip.hpp"
@@ -41,12 +41,31 @@ struct Frame {
 };
 
 /// Letters, digits and '-' of a name, for files.
-std::string plain(std::string name) {
+std::string file_word(std::string name) {
     for (char& c : name) {
         const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
         c = letter || (c >= '0' && c <= '9') ? c : '-';
     }
     return name;
+}
+
+/// Whether measure_frame() may have written a file of that name: error-2-SCENE-640x480-SET.exr.
+bool is_error_image(const std::string& name) {
+    const std::string extension = ".exr";
+    int begin = 0;
+    std::sscanf(name.c_str(), "error-%*[0-9]-%n", &begin);
+    if (begin == 0 || name.size() < begin + extension.size()) {
+        return false;
+    }
+    const std::size_t end = name.size() - extension.size();
+    for (std::size_t at = name.find('-', begin); at < end; at = name.find('-', at + 1)) {
+        int length = 0; // stays if there is no size here
+        std::sscanf(name.c_str() + at, "-%*[0-9]x%*[0-9]-%n", &length);
+        if (length != 0 && at + length <= end) {
+            return name.compare(end, std::string::npos, extension) == 0;
+        }
+    }
+    return false;
 }
 
 WorstPixel explain(Frame& frame, const ImageDifference& difference, const NumberSet& set,
@@ -113,8 +132,8 @@ void measure_frame(const SceneAccuracyRequest& request, Frame& frame, const Outp
         Image image = render(frame, numbers, frame.row.scene);
         AccuracyRow row = compare(frame, image, numbers.set, !request.gemm);
         if (request.error_images) {
-            row.error_image = "error-" + std::to_string(rows.size()) + "-" + plain(row.scene) +
-                              "-" + row.resolution + "-" + plain(row.numbers) + ".exr";
+            row.error_image = "error-" + std::to_string(rows.size()) + "-" + file_word(row.scene) +
+                              "-" + row.resolution + "-" + file_word(row.numbers) + ".exr";
             subtract(frame.reference, image);
             write_exr(image, out.path(row.error_image));
         }
@@ -161,10 +180,9 @@ std::vector<std::string> old_error_images(const OutputFolder& out) {
     if (!std::filesystem::exists(out.path("accuracy.json"), error)) {
         return paths;
     }
-    const std::regex form("error-[0-9]+-.*-[0-9]+x[0-9]+-.*\\.exr");
     for (std::filesystem::directory_iterator at(out.path(""), error), end; !error && at != end;
          at.increment(error)) {
-        if (std::regex_match(at->path().filename().string(), form)) {
+        if (is_error_image(at->path().filename().string())) {
             paths.push_back(at->path().string());
         }
     }

@@ -9,6 +9,7 @@
 
 #include "degs/error.hpp"
 #include "sim/compare/comparison_output.hpp"
+#include "sim/page/page.hpp"
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"
 #include "sim/simulation/warnings.hpp"
@@ -16,7 +17,6 @@
 namespace degs::sim {
 namespace {
 
-constexpr const char* kIndex = "index.html";
 constexpr const char* kRatios = "ratios.svg";
 constexpr const char* kSlots = "slots.svg";
 constexpr const char* kUtilization = "utilization.svg";
@@ -24,7 +24,7 @@ constexpr const char* kUtilization = "utilization.svg";
 } // namespace
 
 std::vector<std::string> comparison_files() {
-    return {"compare.json", "compare.csv", kIndex, kRatios, kSlots, kUtilization};
+    return {"compare.json", "compare.csv", kPageFile, kRatios, kSlots, kUtilization};
 }
 
 CompareSession::CompareSession(const CompareRequest& request, const OutputFolder& out,
@@ -162,7 +162,7 @@ void CompareSession::write() const {
     const Comparison now = comparison();
     out_.write_json("compare.json", comparison_json(now));
     out_.write_text("compare.csv", comparison_csv(now));
-    out_.write_text(kIndex, comparison_page(request_.configs, now));
+    out_.write_text(kPageFile, comparison_page(request_.configs, now));
     for (const auto& [file, picture] :
          {std::pair(kRatios, ratios_picture(now, scale_)), std::pair(kSlots, slots_picture(now)),
           std::pair(kUtilization, utilization_picture(now))}) {

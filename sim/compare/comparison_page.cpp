@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "config/config_document.hpp"
 #include "sim/compare/comparison_output.hpp"
 #include "sim/page/page.hpp"
@@ -15,9 +16,8 @@ namespace {
 std::map<std::string, std::string> values_of(const std::vector<KeyDoc>& keys) {
     std::map<std::string, std::string> values;
     for (const KeyDoc& key : keys) {
-        values[key.path] = key.type == "text"
-                               ? nlohmann::json::parse(key.default_value).get<std::string>()
-                               : key.default_value;
+        values[key.path] = key.type == "text" ? parse_json(key.default_value).get<std::string>()
+                                              : key.default_value;
     }
     return values;
 }

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
@@ -90,7 +91,7 @@ std::string cost_json(const std::string& name, const cost::BillOfMaterials& bill
         visitor.section("area", bill, "");
         visitor.section("clock", clock, "");
     })));
-    return json.dump(2) + "\n";
+    return dump_json(json, 2) + "\n";
 }
 
 } // namespace degs::sim

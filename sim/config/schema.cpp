@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "base/json_text.hpp"
 #include "config/config_schema.hpp"
 #include "sim/simulation/run_config.hpp"
 #include "sim/study/study_schema.hpp"
@@ -28,7 +29,7 @@ public:
     void count(const ordered_json& section) {
         for (const auto& [key, value] : section["properties"].items()) {
             if (value.contains("properties")) {
-                ++counts_[value.dump()];
+                ++counts_[dump_json(value)];
                 count(value);
             }
         }
@@ -39,7 +40,7 @@ public:
                 continue;
             }
             const std::string below = path + key;
-            const std::string text = value.dump();
+            const std::string text = dump_json(value);
             if (counts_[text] < 2 || text.size() < kLeastShared) {
                 replace(value, below + ".", definitions);
                 continue;
@@ -172,7 +173,7 @@ std::string schema_text(const std::string& name) {
                                   : name == "study"  ? study_document()
                                   : name == "memory" ? memory_document()
                                                      : technology_document();
-    return document.dump(1) + "\n";
+    return dump_json(document, 1) + "\n";
 }
 
 } // namespace degs::sim

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "degs/error.hpp"
+#include "sim/page/page.hpp"
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"
 #include "sim/results/run_summary.hpp"
@@ -15,14 +16,13 @@ namespace {
 constexpr double kWritesApart = 1; // s
 constexpr const char* kDocument = "motion.json";
 constexpr const char* kTable = "motion.csv";
-constexpr const char* kIndex = "index.html";
 constexpr const char* kLatency = "latency.svg";
 constexpr const char* kRefresh = "refreshes.svg";
 
 } // namespace
 
 std::vector<std::string> motion_files() {
-    return {kDocument, kTable, kIndex, kLatency, kRefresh};
+    return {kDocument, kTable, kPageFile, kLatency, kRefresh};
 }
 
 MotionSession::MotionSession(const CompareRequest& request, const OutputFolder& out,
@@ -136,7 +136,7 @@ void MotionSession::write() {
         out_.write_text(kTable, motion_csv(motion_));
         out_.write_text(kLatency, motion_latency_svg(words_, motion_));
         out_.write_text(kRefresh, motion_refresh_svg(words_, motion_));
-        out_.write_text(kIndex, motion_page(words_, motion_));
+        out_.write_text(kPageFile, motion_page(words_, motion_));
     });
     written_ = Stopwatch();
 }

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "sim/page/page_assets.hpp"
 #include "sim/plot/plot_svg.hpp"
 #include "sim/report/report.hpp"
@@ -18,7 +19,7 @@ using nlohmann::ordered_json;
 
 /// Bytes that are not UTF-8 become U+FFFD, and nothing in it ends the element that holds it.
 std::string embedded(const ordered_json& json) {
-    std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    std::string text = dump_json(json);
     for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
         text.replace(at, 1, "\\u003c");
     }

@@ -42,7 +42,9 @@ struct PageFacts {
     std::string spent{};   ///< what a search has spent: "60 designs estimated, 12 simulated"
 };
 
-/// index.html: measures of the host are left out, so that it depends only on what was simulated.
+constexpr const char* kPageFile = "index.html";
+
+/// The page: measures of the host are left out, so that it depends only on what was simulated.
 std::string study_page(const PageFacts& facts, const Comparison& comparison);
 
 /// The text with `&`, `<` and `>` as HTML writes them.

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -35,9 +36,8 @@ std::string attribute(const char* name, const std::string& value) {
 
 /// Valid UTF-8, whatever came in: the JSON library replaces what is not.
 std::string valid_utf8(const std::string& text) {
-    const std::string quoted =
-        nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return nlohmann::json::parse(quoted).get<std::string>();
+    const std::string quoted = dump_json(nlohmann::json(text));
+    return parse_json(quoted).get<std::string>();
 }
 
 /// XML has no U+FFFE and U+FFFF, which become U+FFFD.

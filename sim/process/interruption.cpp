@@ -29,8 +29,8 @@ constexpr std::size_t kLongest = 512;
 
 /// Two, so that a signal finds one whole while the other is written.
 std::array<std::array<char, kLongest>, 2> sentences{{{"degs: Interrupted.\n"}, {}}};
-std::atomic<const char*> sentence{sentences[0].data()};
-const char* before = ""; ///< clears the line of a terminal that shows how far the program is
+std::atomic<const char*> spoken_sentence{sentences[0].data()};
+const char* spoken_first = ""; ///< clears the line of a terminal that shows how far the program is
 
 void write_text(const char* text) {
     const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
@@ -43,8 +43,8 @@ void end_on(int signal) {
     drop_partial_files();
     for (const Ending& ending : kEndings) {
         if (ending.signal == signal && ending.spoken) {
-            write_text(before);
-            write_text(sentence.load());
+            write_text(spoken_first);
+            write_text(spoken_sentence.load());
         }
     }
     std::raise(signal);
@@ -53,7 +53,7 @@ void end_on(int signal) {
 } // namespace
 
 void announce_interruption() {
-    before = ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
+    spoken_first = ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
     for (const Ending& ending : kEndings) {
         struct sigaction action {};
         ::sigaction(ending.signal, nullptr, &action);
@@ -68,13 +68,13 @@ void announce_interruption() {
 }
 
 void set_interruption_sentence(const std::string& text) {
-    auto& next = sentence.load() == sentences[0].data() ? sentences[1] : sentences[0];
+    auto& next = spoken_sentence.load() == sentences[0].data() ? sentences[1] : sentences[0];
     const std::string shown = "degs: " + visible(text);
     const std::size_t size = std::min(shown.size(), kLongest - 2);
     shown.copy(next.data(), size);
     next[size] = '\n';
     next[size + 1] = '\0';
-    sentence = next.data();
+    spoken_sentence = next.data();
 }
 
 void keep_interruption_quiet() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/json_text.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -107,7 +108,7 @@ std::string csv_number(const std::optional<double>& value) {
     const ordered_json json = number_json(value);
     return json.is_null()             ? ""
            : json.is_string()         ? json.get<std::string>()
-           : json.is_number_integer() ? json.dump()
+           : json.is_number_integer() ? dump_json(json)
                                       : decimal_of(*value);
 }
 

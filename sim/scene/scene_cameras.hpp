@@ -5,10 +5,13 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include "scene/scene.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace degs::sim {
 

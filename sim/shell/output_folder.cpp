@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "config/input_files.hpp"
 #include "degs/error.hpp"
 #include "scene/files/output_file.hpp"
@@ -131,7 +132,7 @@ std::string view_file(const std::string& name, std::size_t view, const std::stri
 }
 
 std::string json_text(const nlohmann::ordered_json& value) {
-    return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return dump_json(value, 2) + "\n";
 }
 
 } // namespace degs::sim

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/json_text.hpp"
 #include "config/config_schema.hpp"
 #include "config/quantity.hpp"
 #include "sim/study/axis.hpp"
@@ -196,7 +197,7 @@ ordered_json described(const StudyKey& key, const ordered_json& values) {
     if (*key.default_value != '\0') {
         const bool plain = key.kind == StudyKind::kText || key.kind == StudyKind::kChoice;
         json["default"] =
-            plain ? ordered_json(key.default_value) : ordered_json::parse(key.default_value);
+            plain ? ordered_json(key.default_value) : parse_ordered_json(key.default_value);
     }
     return json;
 }

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
 #include "sim/shell/output_folder.hpp"
@@ -25,7 +26,7 @@ std::string own_text(const KeyDoc& key) {
     if (key.type == "integer" || key.type == "real") {
         return decimal_text(std::strtod(key.default_value.c_str(), nullptr));
     }
-    return key.type == "text" ? nlohmann::json::parse(key.default_value).get<std::string>()
+    return key.type == "text" ? parse_json(key.default_value).get<std::string>()
                               : key.default_value;
 }
 

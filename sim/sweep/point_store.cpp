@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
 #include "sim/cache/digest.hpp"
@@ -59,7 +60,7 @@ std::string checked(const std::string& folder) {
     const fs::path path(folder);
     const std::optional<std::string> state = read_whole((path / kState).string());
     if (state) {
-        const ordered_json json = ordered_json::parse(*state, nullptr, false);
+        const ordered_json json = parse_ordered_json(*state);
         const bool ours = json.is_object() && json.contains("schema") &&
                           json["schema"].is_object() && json["schema"].contains("name") &&
                           json["schema"]["name"] == kStudySchema;

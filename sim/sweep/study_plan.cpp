@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "config/config_document.hpp"
 #include "degs/error.hpp"
 #include "sim/cache/digest.hpp"
@@ -112,7 +113,7 @@ std::string run_options(const CompareRequest& request) {
 /// Gives every point its key, and the plan its digest. A point has the same key in every study.
 void identify(StudyPlan& plan) {
     const CompareRequest& request = plan.request;
-    const std::string program = tool_json().dump() + std::to_string(kSummaryVersion);
+    const std::string program = dump_json(tool_json()) + std::to_string(kSummaryVersion);
     const std::string options = run_options(request);
     std::vector<std::string> designs;
     for (std::size_t v = 0; v < plan.variants.size(); ++v) {

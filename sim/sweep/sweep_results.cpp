@@ -21,7 +21,6 @@ using nlohmann::ordered_json;
 
 constexpr const char* kCsv = "results.csv";
 constexpr const char* kJson = "results.json";
-constexpr const char* kPage = "index.html";
 constexpr const char* kHostCsv = "host.csv";
 constexpr const char* kBandwidth = "bandwidth.svg";
 constexpr std::size_t kMostShown = 10; ///< reasons on a terminal; the files have all
@@ -272,7 +271,7 @@ private:
 } // namespace
 
 std::vector<std::string> sweep_files() {
-    return {kJson, kCsv, kHostCsv, kPage, kBandwidth};
+    return {kJson, kCsv, kHostCsv, kPageFile, kBandwidth};
 }
 
 std::vector<std::string> search_files() {
@@ -328,7 +327,7 @@ void write_results(const StudyPlan& plan, const SweepResults& results, const Out
         folder.write_text(kCsv, results_csv(plan, results));
         folder.write_text(kHostCsv, host_csv(results));
         folder.write_json(kJson, results_json(plan, results));
-        folder.write_text(kPage, page_of(plan, results));
+        folder.write_text(kPageFile, page_of(plan, results));
         const std::string picture = bandwidth_picture(plan, results.comparison);
         if (!picture.empty()) {
             folder.write_text(kBandwidth, picture);

@@ -3,19 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "sim/trace/trace_file.hpp"
 #include "sim/trace/trace_options.hpp"
 
 namespace degs::sim {
-
-void add_block_log_option(CLI::App& command, BlockLogRequest& request) {
-    command
-        .add_option("--block-log", request.words,
-                    "block, for instance bank:3, and file for everything that goes in and out of "
-                    "it; the run is strict, whose dates are those of exact")
-        ->expected(2)
-        ->type_name("BLOCK FILE");
-}
 
 void check_block_log(const BlockLogRequest& request) {
     check_writable(request.file());
@@ -43,7 +35,7 @@ std::string block_log_text(const std::string& design, const std::string& block,
         header["events"].push_back({{"name", kind.name}, {"fields", fields}});
     }
     header["bytes"] = log.bytes().size();
-    return header.dump() + "\n" + log.bytes();
+    return dump_json(header) + "\n" + log.bytes();
 }
 
 void write_block_log(const std::string& design, const BlockLogRequest& request,

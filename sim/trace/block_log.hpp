@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include "tlm/event_log.hpp"
 
 namespace degs::sim {
@@ -18,7 +16,6 @@ struct BlockLogRequest {
     const std::string& file() const { return words.back(); }
 };
 
-void add_block_log_option(CLI::App& command, BlockLogRequest& request);
 /// For a request that is given: throws InputError if the file cannot be written, before a long run.
 void check_block_log(const BlockLogRequest& request);
 /// The file, in the form of docs/block-log.md.

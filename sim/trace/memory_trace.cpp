@@ -96,14 +96,6 @@ void MemoryTrace::write_line(const MemoryRequest& request, std::uint64_t begin, 
     *out_ << line.data() << names_[request.initiator] << '\n';
 }
 
-void add_memory_trace_option(CLI::App& command, std::string& file) {
-    command
-        .add_option("--memory-trace", file,
-                    "file for every request to memory: name.stl, as DRAMSys reads it, or "
-                    "name.ldst, as Ramulator 2 does")
-        ->type_name("FILE");
-}
-
 void check_memory_trace(const std::string& file) {
     memory_trace_form(file);
     check_writable(file);

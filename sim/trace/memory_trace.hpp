@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include "tlm/memory_request.hpp"
 
 namespace degs::sim {
@@ -57,7 +55,6 @@ private:
     Cycle written_ = 0; // no request dated before may follow
 };
 
-void add_memory_trace_option(CLI::App& command, std::string& file);
 /// For a name that is not empty: throws InputError if it has no form, or if the file cannot be
 /// written, before a long run.
 void check_memory_trace(const std::string& file);

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "base/ratio.hpp"
 #include "degs/error.hpp"
 #include "scene/files/output_file.hpp"
@@ -19,7 +20,7 @@ namespace {
 enum Group { Run = 1, Units, Array, Stages, Buffers, MemoryBus, Power };
 
 std::string quoted(const std::string& words) {
-    return nlohmann::json(words).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    return dump_json(nlohmann::json(words), -1, true);
 }
 
 /// The shortest text that reads back as the same number.

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include <CLI/App.hpp>
+
 #include "sim/shell/output_folder.hpp"
 
 namespace degs::sim {
@@ -28,6 +30,23 @@ void add_trace_options(CLI::App& command, TraceRequest& request) {
                     "steps cover the run")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}))
         ->needs(file);
+}
+
+void add_memory_trace_option(CLI::App& command, std::string& file) {
+    command
+        .add_option("--memory-trace", file,
+                    "file for every request to memory: name.stl, as DRAMSys reads it, or "
+                    "name.ldst, as Ramulator 2 does")
+        ->type_name("FILE");
+}
+
+void add_block_log_option(CLI::App& command, BlockLogRequest& request) {
+    command
+        .add_option("--block-log", request.words,
+                    "block, for instance bank:3, and file for everything that goes in and out of "
+                    "it; the run is strict, whose dates are those of exact")
+        ->expected(2)
+        ->type_name("BLOCK FILE");
 }
 
 void check_writable(const std::string& file) {

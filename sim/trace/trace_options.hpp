@@ -6,9 +6,12 @@
 #include <optional>
 #include <string>
 
-#include <CLI/App.hpp>
-
+#include "sim/trace/block_log.hpp"
 #include "tlm/timeline.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace degs::sim {
 
@@ -18,6 +21,8 @@ struct TraceRequest {
 };
 
 void add_trace_options(CLI::App& command, TraceRequest& request);
+void add_memory_trace_option(CLI::App& command, std::string& file);
+void add_block_log_option(CLI::App& command, BlockLogRequest& request);
 /// Empty without --trace. Throws InputError if the file cannot be written, before a long run.
 std::optional<Timeline::Config> timeline_of(const TraceRequest& request);
 /// Throws InputError if a file of that name cannot be written.

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "degs/error.hpp"
 #include "scene/files/input_file.hpp"
 #include "sim/simulation/frame_checks.hpp"
@@ -357,11 +358,11 @@ std::string head_text(const WorkloadHead& head) {
     for (const PackedFrame& frame : head.frames) {
         json["frames"].push_back(json_of(frame));
     }
-    return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    return dump_json(json);
 }
 
 WorkloadHead read_head(const std::string& path, const std::string& text) {
-    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    const nlohmann::json json = parse_json(text);
     if (!json.is_object()) {
         fail_file(path, "its head is damaged; it must be a JSON object.");
     }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/json_text.hpp"
 #include "config/config_words.hpp"
 
 namespace degs {
@@ -12,7 +13,7 @@ using nlohmann::ordered_json;
 
 /// JSON strings are YAML strings in double quotes. Bytes that are not UTF-8 become U+FFFD.
 std::string quoted_text(const std::string& text) {
-    return ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    return dump_json(ordered_json(text));
 }
 
 std::vector<std::string> words(const std::vector<const char*>& names) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/hard/hard_builder.hpp"
+#include "base/json_text.hpp"
 #include "degs/error.hpp"
 #include "scene/gltf/gltf.hpp"
 #include "splat/model/spherical_harmonics.hpp"
@@ -46,10 +47,10 @@ struct HardGlb {
         for (int i = 3; i >= 0; --i) {
             length = length << 8 | static_cast<unsigned char>(bytes[12 + i]);
         }
-        return {HardJson::parse(bytes.substr(kJsonAt, length)), bytes.substr(kJsonAt + length)};
+        return {parse_json(bytes.substr(kJsonAt, length)), bytes.substr(kJsonAt + length)};
     }
     std::string bytes() const {
-        std::string text = json.dump();
+        std::string text = dump_json(json);
         text.resize((text.size() + 3) / 4 * 4, ' ');
         return "glTF" + number_of_four_bytes(2) +
                number_of_four_bytes(kJsonAt + text.size() + bin.size()) +

@@ -8,10 +8,10 @@
 
 #include "baselines/gbu/engine_record.hpp"
 #include "config/config.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/slot_account.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs::gbu {
 

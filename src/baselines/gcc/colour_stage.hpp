@@ -8,8 +8,8 @@
 #include "baselines/gcc/block_mask.hpp"
 #include "baselines/gcc/messages.hpp"
 #include "baselines/gcc/traffic.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs::gcc {

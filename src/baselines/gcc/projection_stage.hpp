@@ -8,10 +8,9 @@
 
 #include "baselines/gcc/traffic.hpp"
 #include "modules/kit/front_end/projection_rate.hpp"
-#include "modules/kit/job/messages.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs::gcc {

@@ -9,9 +9,9 @@
 #include "baselines/gcc/traversal.hpp"
 #include "config/config.hpp"
 #include "modules/kit/job/array_share.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/slot_account.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs::gcc {
 

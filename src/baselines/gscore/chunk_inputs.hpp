@@ -5,9 +5,8 @@
 
 #include <systemc>
 
-#include "modules/kit/job/messages.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs::gscore {
 

@@ -9,11 +9,11 @@
 #include "baselines/gscore/oriented_boxes.hpp"
 #include "config/config.hpp"
 #include "modules/kit/job/array_share.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/slot_account.hpp"
 #include "splat/frame/subtile_cover.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs::gscore {
 

@@ -5,9 +5,9 @@
 
 #include "baselines/orange/gemm_batch.hpp"
 #include "config/config.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs::orange {
 

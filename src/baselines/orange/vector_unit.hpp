@@ -7,9 +7,9 @@
 
 #include "baselines/orange/mac_account.hpp"
 #include "config/config.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs::orange {
 

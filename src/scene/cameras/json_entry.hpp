@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
+
 #include "scene/cameras/camera_place.hpp"
 
 namespace degs {
@@ -43,7 +45,7 @@ public:
 private:
     double number_in(const nlohmann::json& value, const std::string& what) const;
     glm::dvec3 vector_in(const nlohmann::json& value, const std::string& what) const;
-    std::string dump(const char* key) const { return at(key).dump(); }
+    std::string dump(const char* key) const { return dump_json(at(key)); }
 
     const CameraPlace& place_;
     const nlohmann::json& json_;

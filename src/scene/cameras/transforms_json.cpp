@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/json_text.hpp"
 #include "scene/cameras/camera_formats.hpp"
 #include "scene/cameras/json_entries.hpp"
 #include "scene/cameras/json_entry.hpp"
@@ -78,7 +79,7 @@ struct Intrinsics {
 double angle(const CameraPlace& place, const JsonEntry& entry, const char* key) {
     const double value = entry.number(key);
     if (!(value > 0 && value < kPi)) {
-        place.fail("has a " + std::string(key) + " of " + entry.at(key).dump() +
+        place.fail("has a " + std::string(key) + " of " + dump_json(entry.at(key)) +
                    "; allowed are angles in radians above 0 and below pi.");
     }
     return value;

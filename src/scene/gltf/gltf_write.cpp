@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "scene/cameras/lens_terms.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/files/output_file.hpp"
@@ -213,7 +214,7 @@ void write_glb(const GaussianCloud& cloud, const std::vector<Camera>& cameras,
     }
     json["scenes"].push_back({{"nodes", roots}});
 
-    std::string text = json.dump(-1, ' ', true, GlbJson::error_handler_t::replace);
+    std::string text = dump_json(json, -1, true);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::uint64_t bytes = 12 + 8 + text.size() + 8 + data_bytes;
     if (bytes > std::numeric_limits<std::uint32_t>::max()) {

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "scene/files/input_file.hpp"
 
 namespace degs {
@@ -172,7 +173,7 @@ private:
         }
         if (root_.contains("counts") && root_["counts"] != Json(sums)) {
             fail("has 'counts' that are not the sums of the Gaussians in its leaves, " +
-                 Json(sums).dump());
+                 dump_json(Json(sums)));
         }
     }
 
@@ -186,7 +187,7 @@ private:
 } // namespace
 
 SogIndex parse_sog_index(const std::string& where, const std::string& text) {
-    const Json root = Json::parse(text, nullptr, false);
+    const Json root = parse_json(text);
     if (root.is_discarded()) {
         fail_file(where, "its lod-meta.json is no JSON, so it is no streamed SOG scene.");
     }

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/files/scene_folder.hpp"
 
@@ -199,7 +200,7 @@ private:
 } // namespace
 
 SogMeta parse_sog_meta(const std::string& where, const std::string& text) {
-    const Json root = Json::parse(text, nullptr, false);
+    const Json root = parse_json(text);
     if (root.is_discarded()) {
         fail_file(where, "its meta.json is no JSON, so this is no SOG scene.");
     }

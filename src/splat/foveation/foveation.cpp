@@ -17,7 +17,7 @@ struct Ends {
 };
 
 /// Pixels of a side of the image within `reach` px of `centre`, at least one.
-Ends within(double centre, double reach, int side) {
+Ends pixels_within(double centre, double reach, int side) {
     const double most = side - 1;
     const double first = std::clamp(std::floor(centre - reach), 0.0, most);
     const double last = std::clamp(std::ceil(centre + reach) - 1, first, most);
@@ -26,8 +26,8 @@ Ends within(double centre, double reach, int side) {
 
 PixelBox around(const Camera& camera, const glm::dvec2& centre, double degrees) {
     const double slope = std::tan(degrees * kDegree);
-    const Ends x = within(centre.x * camera.width, camera.fx * slope, camera.width);
-    const Ends y = within(centre.y * camera.height, camera.fy * slope, camera.height);
+    const Ends x = pixels_within(centre.x * camera.width, camera.fx * slope, camera.width);
+    const Ends y = pixels_within(centre.y * camera.height, camera.fy * slope, camera.height);
     return {x.first, y.first, x.last, y.last};
 }
 

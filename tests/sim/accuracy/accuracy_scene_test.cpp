@@ -133,6 +133,32 @@ TEST(AccuracyScenes, EqualImagesHaveNoPsnr) {
     EXPECT_EQ(rows[0]["flip"], 0);
 }
 
+TEST(AccuracyScenes, ErrorImagesOfAnEarlierRunAreReplaced) {
+    const Folder folder;
+    const std::vector<std::string> earlier{"error-0-object-1280x720-tuned.exr",
+                                           "error-17--1x1-.exr",
+                                           "error-3-a-12x7-b-640x480-c-d.exr"};
+    const std::vector<std::string> foreign{
+        "error-1-1280x720-tuned.exr",         "error-a-object-1280x720-tuned.exr",
+        "error-1-object-1280x-tuned.exr",     "error-1-object-1280x720.exr",
+        "error-1-object-1280x720-tuned.png",  "my-error-1-object-1280x720-tuned.exr",
+        "error-1-object-1280x720-tuned.exr2", "error-1-object.exr"};
+    fs::create_directory(folder / "out");
+    for (const std::vector<std::string>& names : {earlier, foreign, {"accuracy.json"}}) {
+        for (const std::string& name : names) {
+            std::ofstream(folder / ("out/" + name)) << name;
+        }
+    }
+    accuracy_of_scenes(folder,
+                       {"--scene", "synthetic:single", "--numbers", "ideal", "--no-error-images"});
+    for (const std::string& name : earlier) {
+        EXPECT_FALSE(fs::exists(folder / ("out/" + name))) << name;
+    }
+    for (const std::string& name : foreign) {
+        EXPECT_EQ(read_file(folder / ("out/" + name)), name);
+    }
+}
+
 TEST(AccuracyScenes, SpanEndsCanBeChosen) {
     const Folder folder;
     const json own = accuracy_of_scenes(folder, {"--scene", kAccuracyScene, "--numbers", "paper"});

@@ -8,11 +8,11 @@
 #include "modules/degs/array/early_blender.hpp"
 #include "modules/degs/array/task_blender.hpp"
 #include "modules/degs/array/termination_grain.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/slot_recorder.hpp"
 #include "modules/kit/job/tile_end.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs {
 

@@ -5,8 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "modules/kit/job/messages.hpp"
-#include "tlm/dated_fifo.hpp"
+#include "modules/kit/job/message_rings.hpp"
 
 namespace degs {
 

@@ -18,10 +18,10 @@
 #include "modules/degs/scheduler/segment_queue.hpp"
 #include "modules/degs/scheduler/segmenter.hpp"
 #include "modules/degs/span_engine/span_unit.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/tile_end.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs {
 

@@ -11,10 +11,9 @@
 #include "modules/degs/scheduler/open_packet.hpp"
 #include "modules/degs/scheduler/packet_ports.hpp"
 #include "modules/degs/scheduler/passed_packets.hpp"
-#include "modules/kit/job/messages.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/slot_recorder.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs {
 

@@ -9,10 +9,10 @@
 #include "modules/degs/drawing/tile_drawing.hpp"
 #include "modules/degs/span_engine/drawn_spans.hpp"
 #include "modules/degs/span_engine/open_chunks.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/sram_ports.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs {
 

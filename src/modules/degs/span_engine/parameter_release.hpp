@@ -3,8 +3,7 @@
 
 #include <systemc>
 
-#include "modules/kit/job/messages.hpp"
-#include "tlm/dated_fifo.hpp"
+#include "modules/kit/job/message_rings.hpp"
 
 namespace degs {
 

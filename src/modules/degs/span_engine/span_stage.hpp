@@ -8,12 +8,12 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/sram_ports.hpp"
 #include "modules/kit/job/tile_end.hpp"
 #include "splat/pixels/coupled_row.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs {
 

@@ -14,9 +14,9 @@
 #include "modules/kit/accelerator/loss_keys.hpp"
 #include "modules/kit/config/frame_end_config.hpp"
 #include "modules/kit/config/pipeline_config.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/view_sharing.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/event_log.hpp"
 #include "tlm/process.hpp"
 

@@ -9,9 +9,9 @@
 
 #include "base/ratio.hpp"
 #include "modules/kit/accelerator/accelerator_result.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/pixels/background_writer.hpp"
 #include "modules/kit/pixels/pixel_buffer.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs {
 

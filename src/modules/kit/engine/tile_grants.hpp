@@ -8,7 +8,7 @@
 #include "modules/kit/front_end/list_collector.hpp"
 #include "modules/kit/front_end/splat_fetcher.hpp"
 #include "modules/kit/front_end/tile_dispatcher.hpp"
-#include "tlm/dated_fifo.hpp"
+#include "modules/kit/job/message_rings.hpp"
 
 namespace degs {
 

@@ -5,10 +5,9 @@
 
 #include <systemc>
 
-#include "modules/kit/job/messages.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/sram_ports.hpp"
 #include "tlm/ceil_div.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs {
 

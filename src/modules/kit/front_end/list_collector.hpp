@@ -3,8 +3,8 @@
 
 #include <systemc>
 
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs {

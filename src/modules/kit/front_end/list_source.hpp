@@ -4,8 +4,8 @@
 #include <systemc>
 
 #include "modules/kit/front_end/sorter_tiles.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs {

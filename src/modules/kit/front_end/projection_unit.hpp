@@ -7,11 +7,11 @@
 #include <systemc>
 
 #include "modules/kit/front_end/projection_rate.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/traffic.hpp"
 #include "modules/kit/job/view_sharing.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs {

@@ -5,8 +5,8 @@
 
 #include "modules/kit/front_end/list_changes.hpp"
 #include "modules/kit/front_end/list_loader.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs {

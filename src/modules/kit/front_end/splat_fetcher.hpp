@@ -5,11 +5,11 @@
 
 #include "modules/kit/front_end/chunk_writer.hpp"
 #include "modules/kit/front_end/reuse_cache.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/sram_ports.hpp"
 #include "modules/kit/job/traffic.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs {

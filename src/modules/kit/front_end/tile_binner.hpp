@@ -8,10 +8,10 @@
 
 #include "modules/kit/front_end/list_changes.hpp"
 #include "modules/kit/front_end/list_writes.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/traffic.hpp"
 #include "stats/statistics.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs {

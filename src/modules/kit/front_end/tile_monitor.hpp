@@ -4,8 +4,8 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
-#include "tlm/dated_fifo.hpp"
 
 namespace degs {
 

@@ -4,9 +4,9 @@
 #include <systemc>
 #include <vector>
 
+#include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/traffic.hpp"
-#include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs {
