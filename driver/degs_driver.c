@@ -69,7 +69,10 @@ void degs_set_frame_buffer(const degs_device *device, uint64_t address, uint32_t
     write_word(device, DEGS_REG_FORMAT, format);
 }
 
+/* What is still pending belongs to frames before, and would fire the interrupt of this one at once. */
 void degs_start(const degs_device *device, uint32_t interrupts) {
+    write_word(device, DEGS_REG_IRQ_STATUS,
+               DEGS_IRQ_STATUS_DONE | DEGS_IRQ_STATUS_ERROR | DEGS_IRQ_STATUS_ABORTED);
     write_word(device, DEGS_REG_IRQ_ENABLE, interrupts);
     write_word(device, DEGS_REG_CONTROL, DEGS_CONTROL_CLEAR_ERROR | DEGS_CONTROL_START);
 }

@@ -102,7 +102,7 @@
 
 #define DEGS_REG_FRAGMENTS              0x120u /* 2 words: of the last frame: pixel updates; with outward span ends more than its useful PE slots */
 
-#define DEGS_REG_WORKSPACE_NEEDED       0x128u /* 2 words: of the last frame whose scene could be loaded */
+#define DEGS_REG_WORKSPACE_NEEDED       0x128u /* 2 words: of the last frame, bytes; 0 if its scene could not be loaded */
 
 #define DEGS_REG_FRAMES                 0x130u /* frames rendered so far, those with a bus error or a changed scene included */
 

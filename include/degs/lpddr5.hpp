@@ -24,11 +24,14 @@ class Lpddr5 : public sc_core::sc_module {
 public:
     /// `file`: a configuration as configs/memory has them; empty: LPDDR5-6400 of 256 bit. Throws
     /// InputError, one sentence that names the file and the line, if something in it is wrong.
-    /// `initiators`: number of sockets, at least 1.
+    /// `initiators`: number of sockets, 1 to 1024; another one is an InputError, too, and so is a
+    /// time resolution of the kernel that is too coarse for the memory's clock. Dates are the same
+    /// with all others.
     Lpddr5(const sc_core::sc_module_name& name, const std::string& file, std::size_t initiators);
     ~Lpddr5() override;
 
-    /// The socket of one initiator, from 0 on; addresses begin at 0.
+    /// The socket of one initiator, from 0 on; addresses begin at 0. These functions throw
+    /// std::out_of_range, one sentence, if there is no such initiator.
     tlm::tlm_target_socket<>& in(std::size_t initiator);
 
     const std::string& memory_name() const; ///< e.g. "lpddr5-6400x256"
@@ -39,6 +42,8 @@ public:
     std::uint64_t bytes_written(std::size_t initiator) const;
 
 private:
+    std::size_t checked(std::size_t initiator) const;
+
     std::unique_ptr<dram::Lpddr5> model_;
     std::string memory_name_;
     double peak_gb_per_s_ = 0;

@@ -40,6 +40,7 @@ public:
     tlm_utils::simple_initiator_socket<RiscvCpu> out;
     sc_core::sc_in<bool> irq; ///< the machine external interrupt
 
+    /// Throws InputError if the time resolution turns the period into nothing.
     RiscvCpu(const sc_core::sc_module_name& name, const RiscvProgram& program,
              const sc_core::sc_time& period);
     ~RiscvCpu() override;

@@ -14,6 +14,10 @@
 namespace degs::dram {
 namespace {
 
+double whole_ck_ps(const Config& config) {
+    return std::round(1000 * config.timing.ck_ns());
+}
+
 std::size_t power_above(Ck value) {
     std::size_t power = 64;
     while (power <= value) {
@@ -26,8 +30,7 @@ std::size_t power_above(Ck value) {
 
 Lpddr5::Lpddr5(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                std::size_t initiators)
-    : sc_core::sc_module(name), in("in", initiators), config_(config),
-      ck_(sc_core::sc_time(config.timing.ck_ns(), sc_core::SC_NS).value()),
+    : sc_core::sc_module(name), in("in", initiators), config_(config), ck_(ck_time(config).value()),
       extra_(
           static_cast<Ck>(std::ceil(config.controller_latency_ns / config.timing.ck_ns() - 1e-9))),
       half_cycle_(sc_core::sc_time::from_value(time.clock.period().value() / 2)),
@@ -49,6 +52,23 @@ Lpddr5::Lpddr5(const sc_core::sc_module_name& name, const Config& config, const 
     SC_METHOD(respond);
     sensitive << respond_event_ << resume_event_;
     dont_initialize();
+}
+
+sc_core::sc_time Lpddr5::ck_time(const Config& config) {
+    return {whole_ck_ps(config), sc_core::SC_PS};
+}
+
+std::string Lpddr5::time_problem(const Config& config, const Timebase& time) {
+    const double ps = whole_ck_ps(config);
+    const sc_core::sc_time ck = ck_time(config);
+    // A half is needed between two edges, at which all requests of the first are there.
+    if (ck.value() >= 2 && std::abs(1e12 * ck.to_seconds() - ps) < 0.5 &&
+        time.clock.period().value() >= 2) {
+        return "";
+    }
+    return "the time resolution " + sc_core::sc_get_time_resolution().to_string() +
+           " is too coarse for the command clock of " + config.name + ", " +
+           std::to_string(static_cast<int>(ps)) + " ps; 1 ps, the default, is fine enough";
 }
 
 void Lpddr5::transport(int socket, Payload& payload, sc_core::sc_time& delay) {

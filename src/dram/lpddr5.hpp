@@ -48,6 +48,12 @@ public:
     Lpddr5(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
            std::size_t initiators);
 
+    /// A CK in kernel time: a whole number of picoseconds, whatever the time resolution.
+    static sc_core::sc_time ck_time(const Config& config);
+    /// Why the resolution of the kernel's time does not hold a CK, or half a cycle of `time`, as a
+    /// sentence without its end; empty if it does, so that dates are those of any finer one.
+    static std::string time_problem(const Config& config, const Timebase& time);
+
     const Stats& stats(std::size_t initiator) const { return stats_[initiator]; }
     Stats total() const;
     /// Counters of all channels, up to now.

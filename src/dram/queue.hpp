@@ -14,6 +14,7 @@ struct Access {
     Ck date = 0;          ///< first CK in which it may send a command
     std::uint32_t id = 0; ///< of the requester
     std::uint32_t row = 0;
+    std::uint32_t writes = 0; ///< to the channel before it, a write itself included; may wrap
     std::uint8_t bank = 0;
     std::uint8_t block = 0;  ///< of 64 bytes in the row
     std::uint8_t bursts = 1; ///< mask: which bursts of the block
@@ -64,8 +65,8 @@ public:
     Entry& operator[](unsigned slot) { return entries_[slot]; }
     const Entry& operator[](unsigned slot) const { return entries_[slot]; }
 
-    /// The queue must not be full.
-    void push(const Access& access) {
+    /// The queue must not be full. Returns the slot.
+    std::uint8_t push(const Access& access) {
         const auto slot = static_cast<std::uint8_t>(__builtin_ctzll(free_));
         free_ &= free_ - 1;
         const unsigned bank = access.bank;
@@ -80,6 +81,7 @@ public:
         tail_[bank] = slot;
         banks_ |= 1U << bank;
         ++size_;
+        return slot;
     }
     void remove(unsigned slot) {
         const Entry& entry = entries_[slot];

@@ -24,6 +24,7 @@ Queues::Queues(const ControllerConfig& config)
 bool Queues::push(const Access& access) {
     if (access.write) {
         ++writes_of_hash_[hash(access)];
+        writes_so_far_ = access.writes;
         writes_in_.push_back(access);
         return posted_writes_;
     }
@@ -34,7 +35,16 @@ bool Queues::push(const Access& access) {
 
 bool Queues::covered(const Access& access) const {
     const std::uint8_t slot = writes_.find(access.bank, access.row, access.block);
-    return slot != Queue::kNone && (access.bursts & ~writes_[slot].access.bursts) == 0;
+    if (slot == Queue::kNone || (access.bursts & ~writes_[slot].access.bursts) != 0) {
+        return false;
+    }
+    for (unsigned bursts = access.bursts; bursts != 0; bursts &= bursts - 1) {
+        const std::uint32_t ahead = access.writes - brought_by_[slot][__builtin_ctz(bursts)];
+        if (ahead > ~std::uint32_t{0} / 2) { // by wrapping: the write is the younger one
+            return false;
+        }
+    }
+    return true;
 }
 
 // The write itself is counted, too.
@@ -45,6 +55,7 @@ std::uint8_t Queues::write_to_merge(const Access& access) const {
 
 unsigned Queues::merge(std::uint8_t slot, const Access& access) {
     const unsigned shared = bursts_of(writes_[slot].left & access.bursts);
+    note_bursts(slot, access, access.bursts & ~writes_[slot].access.bursts);
     writes_[slot].access.bursts |= access.bursts;
     writes_[slot].left |= access.bursts;
     --writes_of_hash_[hash(access)];

@@ -19,8 +19,9 @@ class Queues {
 public:
     explicit Queues(const ControllerConfig& config);
 
-    /// The access with `after_write` as it is when the access arrives.
+    /// The access with `writes` and `after_write` as they are when the access arrives.
     Access marked(Access access) const {
+        access.writes = access.write ? writes_so_far_ + 1 : writes_up_to(access.date);
         access.after_write = !access.write && writes_of_hash_[hash(access)] != 0;
         return access;
     }
@@ -76,7 +77,9 @@ public:
         return access;
     }
 
-    void enqueue_write(const Access& access) { writes_.push(access); }
+    void enqueue_write(const Access& access) {
+        note_bursts(writes_.push(access), access, access.bursts);
+    }
     void enqueue_read(const Access& access) { reads_.push(access); }
     /// The slot of a queued write to the block of this write, which has been taken; kNone if there
     /// is none.
@@ -84,7 +87,7 @@ public:
     /// Joins a write to that of write_to_merge(). Returns how many of its bursts that one was to
     /// transfer anyway.
     unsigned merge(std::uint8_t slot, const Access& access);
-    /// True if a waiting write holds all bytes of this read.
+    /// True if waiting writes hold all bytes of this read, and came before it.
     bool covered(const Access& access) const;
     /// Takes a served access out of the current queue.
     void remove(unsigned slot);
@@ -126,6 +129,20 @@ private:
         return !waiting.empty() && !queue.full() && waiting.front().date <= date;
     }
     bool ordinary_fit() const { return reads_.size() < most_ordinary_; }
+    /// Writes that had come by a date. Those that are ahead of it still wait for their own.
+    std::uint32_t writes_up_to(Ck date) const {
+        std::uint32_t writes = writes_so_far_;
+        for (auto w = writes_in_.rbegin(); w != writes_in_.rend() && w->date > date; ++w) {
+            --writes;
+        }
+        return writes;
+    }
+    /// Which write brought these bursts into the slot.
+    void note_bursts(std::uint8_t slot, const Access& access, unsigned bursts) {
+        for (; bursts != 0; bursts &= bursts - 1) {
+            brought_by_[slot][__builtin_ctz(bursts)] = access.writes;
+        }
+    }
     static std::size_t hash(const Access& access) {
         return (access.row * 37U + access.bank * 11U + access.block) % 256;
     }
@@ -140,6 +157,9 @@ private:
     // for.
     std::array<std::uint16_t, 256> writes_of_hash_{};
     std::size_t after_writes_ = 0; // waiting reads with after_write
+    std::uint32_t writes_so_far_ = 0;
+    // Access::writes of the first write that brought a burst, for each burst of a queued write.
+    std::array<std::array<std::uint32_t, 8>, Queue::kSlots> brought_by_{};
 };
 
 } // namespace degs::dram

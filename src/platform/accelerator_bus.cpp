@@ -105,7 +105,7 @@ void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay)
     set_status(kStatusBusy, kStatusDone | kStatusError | kStatusAborted);
     registers_.set(Register::ErrorCode, 0);
     registers_.set(Register::ErrorDetail, 0);
-    request_fault_ = AcceleratorRequest::read(registers_, options_.limits, request_);
+    request_ = AcceleratorRequest::read(registers_, options_.limits);
     started_ = true;
     start_date_ = sc_core::sc_time_stamp() + delay;
     work_.notify(sc_core::SC_ZERO_TIME);

@@ -124,12 +124,14 @@ void AcceleratorCore::end_frame(const AcceleratorFault& fault) {
 }
 
 AcceleratorFault AcceleratorCore::prepare() {
-    for (const Register counter : {Register::Cycles, Register::LoadCycles, Register::BytesRead,
-                                   Register::BytesWritten, Register::Fragments}) {
+    for (const Register counter :
+         {Register::Cycles, Register::LoadCycles, Register::BytesRead, Register::BytesWritten,
+          Register::Fragments, Register::WorkspaceNeeded}) {
         registers_.set_pair(counter, 0);
     }
-    if (request_fault_) {
-        return request_fault_;
+    registers_.set(Register::Dropped, 0);
+    if (request_.fault) {
+        return request_.fault;
     }
     try {
         const sc_core::sc_time start = sc_core::sc_time_stamp();

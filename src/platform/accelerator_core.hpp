@@ -75,8 +75,7 @@ private:
     struct { // for trace()
         bool busy = false, in_reset = false, irq = false;
     } lines_;
-    AcceleratorRequest request_;     // of the present frame
-    AcceleratorFault request_fault_; // why the present frame cannot be served, if so
+    AcceleratorRequest request_; // of the present frame
     SceneCopy scene_;
     bool scene_changed_ = false;
     std::deque<FrameWorkload> workloads_; // of the frames that the job keeps

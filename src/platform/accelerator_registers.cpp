@@ -116,7 +116,7 @@ std::vector<RegisterInfo> rows() {
         {R::Fragments, 2, "FRAGMENTS", r,
          "of the last frame: pixel updates; with outward span ends more than its useful PE slots"},
         {R::WorkspaceNeeded, 2, "WORKSPACE_NEEDED", r,
-         "of the last frame whose scene could be loaded"},
+         "of the last frame, bytes; 0 if its scene could not be loaded"},
         {R::Frames, 1, "FRAMES", r,
          "frames rendered so far, those with a bus error or a changed scene included"},
         {R::Dropped, 1, "DROPPED", r, "of the last frame: Gaussians that no renderer can draw"},

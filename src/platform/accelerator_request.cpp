@@ -65,7 +65,8 @@ AcceleratorFault read_camera(const AcceleratorRegisters& regs, Camera& camera) {
                                                : fault(AcceleratorError::BadCamera, Register::Axes);
 }
 
-// Where the image lies in its raster. Registers that nobody has written put it in the middle.
+// Where the image lies in its raster, from a camera that is centred. Registers that nobody has
+// written put it in the middle.
 AcceleratorFault read_window(const AcceleratorRegisters& regs, Camera& camera) {
     const glm::dvec2 shift(regs.get_double(Register::ShiftX), regs.get_double(Register::ShiftY));
     if (!camera.set_principal_point(camera.principal_point() + shift)) {
@@ -141,14 +142,17 @@ AcceleratorFault check_regions(const AcceleratorRequest& request) {
 
 } // namespace
 
-AcceleratorFault AcceleratorRequest::read(const AcceleratorRegisters& registers,
-                                          const Limits& limits, AcceleratorRequest& request) {
-    AcceleratorFault found = read_size(registers, limits.pixels, request.camera);
+AcceleratorRequest AcceleratorRequest::read(const AcceleratorRegisters& registers,
+                                            const Limits& limits) {
+    AcceleratorRequest request;
+    AcceleratorFault& found = request.fault;
+    found = read_size(registers, limits.pixels, request.camera);
     found = found ? found : read_scene(registers, limits.gaussians, request);
     found = found ? found : read_bases(registers, request);
     found = found ? found : check_regions(request);
     found = found ? found : read_camera(registers, request.camera);
-    return found ? found : read_window(registers, request.camera);
+    found = found ? found : read_window(registers, request.camera);
+    return request;
 }
 
 std::uint64_t AcceleratorRequest::frame_bytes() const {

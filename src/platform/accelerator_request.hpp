@@ -19,18 +19,19 @@ struct AcceleratorFault {
     explicit operator bool() const { return error != AcceleratorError::None; }
 };
 
-/// The request of a frame: the values of the registers when it was started.
+/// The request of a frame: the values of the registers when it was started, and of nothing else, so
+/// that no frame inherits anything of the one before it.
 struct AcceleratorRequest {
     using Limits = AcceleratorOptions::Limits;
 
+    AcceleratorFault fault; ///< why it cannot be served; the values behind it are not complete
     SceneCopy::Place scene;
     MemoryBases bases;
     std::uint64_t workspace_bytes = 0;
     Camera camera;
 
     /// Reads and checks the registers.
-    static AcceleratorFault read(const AcceleratorRegisters& registers, const Limits& limits,
-                                 AcceleratorRequest& request);
+    static AcceleratorRequest read(const AcceleratorRegisters& registers, const Limits& limits);
     std::uint64_t frame_bytes() const;
     /// A part of memory that belongs to the accelerator.
     struct Region {

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "degs/error.hpp"
 #include "riscv/elf.hpp"
 #include "riscv/rv32.hpp"
 #include "scene/files/input_file.hpp"
@@ -69,6 +70,12 @@ RiscvCpu::RiscvCpu(const sc_core::sc_module_name& name, const RiscvProgram& prog
                    const sc_core::sc_time& period)
     : sc_core::sc_module(name), out("out"), irq("irq"),
       hart_(std::make_unique<Hart>(*this, program)), period_(period) {
+    if (period == sc_core::SC_ZERO_TIME) {
+        throw InputError(std::string(this->name()) +
+                         ": an instruction takes no time; the period must be at least the time "
+                         "resolution, " +
+                         sc_core::sc_get_time_resolution().to_string() + ".");
+    }
     DEGS_HAS_PROCESS(RiscvCpu);
     SC_THREAD(run);
 }

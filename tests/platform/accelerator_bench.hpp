@@ -294,4 +294,19 @@ inline std::vector<unsigned char> rgba8(const Image& image) {
     return bytes;
 }
 
+/// A closed job of the configuration of an accelerator, which owns its memory, as `degs run` has.
+struct Closed {
+    Closed(const char* name, const AcceleratorConfig& config, const GaussianCloud& cloud,
+           const Camera& camera, bool antialiased = false)
+        : workload(make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode(),
+                                       projection_of(config.data_path(), antialiased))),
+          job(make_render_job({&workload}, config)), engine(config.build(name, time, job, {})) {}
+    const Image& image() const { return job.images.front(); }
+    std::vector<unsigned char> pixels() const { return rgba8(image()); }
+    Timebase time{ClockDomain(1.0), Fidelity::Exact};
+    FrameWorkload workload;
+    RenderJob job;
+    std::unique_ptr<RenderEngine> engine;
+};
+
 } // namespace degs::test

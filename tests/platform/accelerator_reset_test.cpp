@@ -5,63 +5,10 @@
 #include "baselines/accelerators.hpp"
 #include "config/config_source.hpp"
 #include "modules/degs/config.hpp"
-#include "tests/platform/accelerator_bench.hpp"
-#include "tests/tlm/at_memory.hpp"
+#include "tests/platform/reset_platform.hpp"
 
 namespace degs::test {
 namespace {
-
-enum class Bus { Annotated, Blocking, FourPhases, Quantum };
-
-Accelerator::Options options_of(Bus bus, Fidelity fidelity) {
-    Accelerator::Options options;
-    options.fidelity = fidelity;
-    if (bus == Bus::FourPhases) {
-        options.memory.transport = Transport::At;
-        options.memory.burst_bytes = 64;
-    } else if (bus == Bus::Quantum) {
-        options.memory.pacing = Pacing::Quantum;
-    }
-    return options;
-}
-
-/// A platform with a reset line and either kind of memory, which watches what the memory sees.
-struct ResetPlatform : Platform {
-    ResetPlatform(const std::string& name, const AcceleratorConfig& config,
-                  const GaussianCloud& cloud, Bus bus, Fidelity fidelity)
-        : Platform(name.c_str(), config, cloud,
-                   bus == Bus::FourPhases
-                       ? nullptr
-                       : std::make_unique<PlainMemory>((name + "_memory").c_str(), kMemoryBytes,
-                                                       bus == Bus::Blocking ? Timing::Blocking
-                                                                            : Timing::Annotated),
-                   options_of(bus, fidelity)),
-          reset_n((name + "_reset_n").c_str(), true) {
-        accelerator.reset_n.bind(reset_n);
-        if (bus == Bus::FourPhases) {
-            at = std::make_unique<AtMemory>((name + "_at_memory").c_str(), kMemoryBytes);
-            mem().bind(at->in);
-            std::vector<unsigned char> geometry;
-            std::vector<unsigned char> sh;
-            encode_scene(cloud, geometry, sh);
-            std::copy(geometry.begin(), geometry.end(), at->bytes.begin());
-            std::copy(sh.begin(), sh.end(), at->bytes.begin() + kSh);
-        }
-    }
-    std::vector<unsigned char>& bytes() { return at ? at->bytes : memory->bytes; }
-    std::uint64_t accesses() const { return at ? at->requests : memory->accesses; }
-    std::vector<unsigned char> pixels(const Camera& camera) {
-        const auto begin = bytes().begin() + kFrame;
-        return {begin, begin + camera.width * camera.height * 4};
-    }
-    void erase(const Camera& camera) {
-        std::fill_n(bytes().begin() + kFrame, camera.width * camera.height * 4, kErased);
-    }
-    static constexpr unsigned char kErased = 0xA5;
-
-    std::unique_ptr<AtMemory> at;
-    sc_core::sc_signal<bool> reset_n;
-};
 
 /// How a frame is given up.
 enum class Way { Line, Register, Abort };
@@ -70,7 +17,8 @@ enum class Way { Line, Register, Abort };
 class ResetBench {
 public:
     ResetBench(const AcceleratorConfig& config, Bus bus, Fidelity fidelity, int resets)
-        : fresh_("fresh", config, cloud_, bus, fidelity), p_("p", config, cloud_, bus, fidelity) {
+        : fresh_("fresh", config, cloud_, bus, options_of(bus, fidelity)),
+          p_("p", config, cloud_, bus, options_of(bus, fidelity)) {
         fresh_.host.script = [this](Host& host) {
             good_ = frame(host, fresh_);
             done_.notify(sc_core::SC_ZERO_TIME);
@@ -229,7 +177,7 @@ class SmallRunResetFace : public ::testing::Test {
 protected:
     GaussianCloud cloud = test_cloud();
     Camera camera = test_camera();
-    ResetPlatform p{"p", DegsConfig(), cloud, Bus::Annotated, Fidelity::Exact};
+    ResetPlatform p{"p", DegsConfig(), cloud, Bus::Annotated, {}};
 
     void run(const std::function<void(Host&)>& script) {
         p.host.script = script;

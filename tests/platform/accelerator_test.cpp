@@ -8,19 +8,6 @@
 namespace degs::test {
 namespace {
 
-/// The pixels of a closed job of the same configuration, which owns its memory.
-struct Closed {
-    Closed(const char* name, const AcceleratorConfig& config, const GaussianCloud& cloud,
-           const Camera& camera)
-        : workload(make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode())),
-          job(make_render_job({&workload}, config)), engine(config.build(name, time, job, {})) {}
-    std::vector<unsigned char> pixels() const { return rgba8(job.images.front()); }
-    Timebase time{ClockDomain(1.0), Fidelity::Exact};
-    FrameWorkload workload;
-    RenderJob job;
-    std::unique_ptr<RenderEngine> engine;
-};
-
 class SmallRunAccelerator : public ::testing::Test {
 protected:
     GaussianCloud cloud = test_cloud();
