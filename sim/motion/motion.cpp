@@ -31,15 +31,21 @@ DisplayResult shown_at(const std::vector<double>& times, const std::vector<doubl
     const double refreshes = std::floor(duration_of(times) * hz + kDateRounding);
     result.refreshes = std::max(1, static_cast<int>(refreshes));
     std::vector<double> photons;
+    std::optional<std::size_t> shown;
+    int images = 0; // of poses that were not shown before
     for (double refresh = 0; refresh < result.refreshes;) {
-        const double latency = ms[pose_before(times, refresh / hz)];
+        const std::size_t pose = pose_before(times, refresh / hz);
+        const double age_ms = std::max(refresh / hz - times[pose], 0.0) * 1e3;
+        const double latency = ms[pose];
         const double periods = std::max(std::ceil(latency / period_ms - kDateRounding), 1.0);
         ++result.frames;
         result.missed += periods > 1 ? 1 : 0;
-        photons.push_back((periods + 0.5) * period_ms);
+        photons.push_back(age_ms + (periods + 0.5) * period_ms);
+        images += shown == pose ? 0 : 1;
+        shown = pose;
         refresh += periods;
     }
-    result.repeated = result.refreshes - result.frames;
+    result.repeated = result.refreshes - images;
     for (const double photon : photons) {
         result.photon_mean_ms += photon / result.frames;
     }

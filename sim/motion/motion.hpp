@@ -10,15 +10,15 @@
 namespace degs::sim {
 
 /// Frames of a path on a display of one refresh rate. Whoever renders takes the newest pose at a
-/// refresh and begins; the image appears with the first refresh at which it is ready, and the next
-/// frame begins then.
+/// refresh and begins, also if it is the pose of the frame before; the image appears with the first
+/// refresh at which it is ready, and the next frame begins then.
 struct DisplayResult {
     double hz = 0;
     int frames = 0;    ///< rendered while the path lasts
     int missed = 0;    ///< of these, not ready at the next refresh
     int refreshes = 0; ///< while the path lasts
-    int repeated = 0;  ///< of these, with an image that was shown before
-    // From the pose to the middle of the refresh that shows it, ms.
+    int repeated = 0;  ///< of these, with the image of a pose that was shown before
+    // From the date of the pose to the middle of the refresh that shows it, ms.
     double photon_mean_ms = 0, photon_p95_ms = 0, photon_worst_ms = 0;
 
     /// Share of the refreshes.

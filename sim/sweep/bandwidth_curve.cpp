@@ -3,70 +3,128 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace degs::sim {
 namespace {
 
-/// Rows of a design on a view that differ in their memory alone.
+/// Rows of a design on a view that differ in the bandwidth of their memory alone.
 struct MemoryLine {
     std::size_t view = 0;
-    std::string label;
+    std::string label, memory;
     std::vector<std::size_t> rows; ///< from the least bandwidth to the most, each once
     std::optional<std::size_t> unlimited;
+    bool ambiguous = false; ///< two latencies at one bandwidth
 };
 
 bool is_of_memory(const std::string& key) {
     return key.rfind("memory.", 0) == 0;
 }
 
-std::string label_of(const StudyPlan& plan, const StudyVariant& variant) {
-    std::string label = variant.design;
-    for (std::size_t k = 0; k < plan.keys.size(); ++k) {
-        if (!is_of_memory(plan.keys[k])) {
-            label += " " + plan.keys[k] + "=" + variant.values[k];
+/// Positions of the keys along which a line of this model goes; none: the study has no such line.
+std::set<std::size_t> bandwidth_keys(const StudyPlan& plan, const std::string& model) {
+    const bool bus = model != "lpddr5";
+    const std::vector<std::string> ways =
+        bus ? std::vector<std::string>{"memory.bandwidth_gb_per_s"}
+            : std::vector<std::string>{"memory.lpddr5.channels",
+                                       "memory.lpddr5.timing.data_rate_mt_per_s",
+                                       "memory.lpddr5.include"};
+    for (const std::string& way : ways) {
+        const auto found = std::find(plan.keys.begin(), plan.keys.end(), way);
+        if (found == plan.keys.end()) {
+            continue;
         }
+        const std::size_t position = found - plan.keys.begin();
+        std::set<std::size_t> along{position};
+        for (const StudyPlan::LinkedAxis& axis : plan.linked) {
+            if (std::find(axis.keys.begin(), axis.keys.end(), position) != axis.keys.end()) {
+                std::copy_if(axis.keys.begin(), axis.keys.end(), std::inserter(along, along.end()),
+                             [&plan](std::size_t k) { return is_of_memory(plan.keys[k]); });
+            }
+        }
+        return along;
     }
-    return label;
+    return {};
 }
 
 double bandwidth_of(const ComparisonRow& row) {
     return row.measures[Measure::DramPeak].value_or(0);
 }
 
-/// In the order of their first rows; lines of one bandwidth are left out. Of points of a line with
-/// the same bandwidth, the first one counts.
+/// Adds a row with a bandwidth and a latency.
+void add_row(const Comparison& comparison, std::size_t r, MemoryLine& line) {
+    const auto latency = [&comparison](std::size_t row) {
+        return *comparison.rows[row].measures[Measure::LatencyMs];
+    };
+    const double bandwidth = bandwidth_of(comparison.rows[r]);
+    if (bandwidth >= kUnlimitedGbPerS) {
+        line.ambiguous |= line.unlimited && latency(*line.unlimited) != latency(r);
+        line.unlimited = r;
+        return;
+    }
+    const auto same = std::find_if(line.rows.begin(), line.rows.end(), [&](std::size_t other) {
+        return bandwidth_of(comparison.rows[other]) == bandwidth;
+    });
+    if (same == line.rows.end()) {
+        line.rows.push_back(r);
+    } else {
+        line.ambiguous |= latency(*same) != latency(r);
+    }
+}
+
+/// Keys that have one value in all lines, which labels need not tell.
+std::set<std::size_t> equal_keys(const StudyPlan& plan, const Comparison& comparison,
+                                 const std::vector<MemoryLine>& lines) {
+    std::set<std::size_t> equal;
+    for (std::size_t k = 0; k < plan.keys.size(); ++k) {
+        const auto value = [&](const MemoryLine& line) -> const std::string& {
+            return plan.variants[comparison.rows[line.rows.front()].config].values[k];
+        };
+        if (std::all_of(lines.begin(), lines.end(), [&](const MemoryLine& line) {
+                return value(line) == value(lines.front());
+            })) {
+            equal.insert(k);
+        }
+    }
+    return equal;
+}
+
+/// In the order of their first rows; lines of one bandwidth are left out.
 std::vector<MemoryLine> lines_of(const StudyPlan& plan, const Comparison& comparison) {
     std::vector<MemoryLine> lines;
-    std::map<std::pair<std::size_t, std::string>, std::size_t> places; // of view and label
-    const bool varied = std::any_of(plan.keys.begin(), plan.keys.end(), is_of_memory);
-    for (std::size_t r = 0; varied && r < comparison.rows.size(); ++r) {
+    std::map<std::tuple<std::size_t, std::string, std::string>, std::size_t> places;
+    std::map<std::string, std::set<std::size_t>> keys; // by model
+    for (std::size_t r = 0; r < comparison.rows.size(); ++r) {
         const ComparisonRow& row = comparison.rows[r];
-        const std::string label = label_of(plan, plan.variants[row.config]);
-        const double bandwidth = bandwidth_of(row);
-        if (bandwidth <= 0 || !row.measures[Measure::LatencyMs]) {
+        const StudyVariant& variant = plan.variants[row.config];
+        const auto [along, is_model] = keys.try_emplace(variant.memory_model);
+        if (is_model) {
+            along->second = bandwidth_keys(plan, variant.memory_model);
+        }
+        if (along->second.empty() || bandwidth_of(row) <= 0 || !row.measures[Measure::LatencyMs]) {
             continue;
         }
-        const auto [place, is_new] = places.emplace(std::pair(row.view, label), lines.size());
+        const std::string label = text_without(plan, variant, along->second);
+        const auto [place, is_new] =
+            places.emplace(std::tuple(row.view, label, variant.memory_model), lines.size());
         if (is_new) {
-            lines.push_back({row.view, label, {}, {}});
+            lines.push_back({row.view, label, variant.memory_name, {}, {}});
         }
         MemoryLine& line = lines[place->second];
-        if (bandwidth >= kUnlimitedGbPerS) {
-            line.unlimited = r;
-        } else if (std::none_of(line.rows.begin(), line.rows.end(), [&](std::size_t other) {
-                       return bandwidth_of(comparison.rows[other]) == bandwidth;
-                   })) {
-            line.rows.push_back(r);
-        }
+        line.memory = line.memory == variant.memory_name ? line.memory : variant.memory_model;
+        add_row(comparison, r, line);
     }
     for (MemoryLine& line : lines) {
         std::sort(line.rows.begin(), line.rows.end(), [&](std::size_t a, std::size_t b) {
             return bandwidth_of(comparison.rows[a]) < bandwidth_of(comparison.rows[b]);
         });
     }
-    lines.erase(std::remove_if(lines.begin(), lines.end(),
-                               [](const MemoryLine& line) { return line.rows.size() < 2; }),
+    lines.erase(std::remove_if(
+                    lines.begin(), lines.end(),
+                    [](const MemoryLine& line) { return line.rows.size() < 2 || line.ambiguous; }),
                 lines.end());
     return lines;
 }
@@ -136,9 +194,15 @@ std::vector<std::optional<double>> elasticities(const StudyPlan& plan,
 
 std::vector<BandwidthCurve> bandwidth_curves(const StudyPlan& plan, const Comparison& comparison) {
     std::vector<BandwidthCurve> curves;
-    for (const MemoryLine& line : lines_of(plan, comparison)) {
+    const std::vector<MemoryLine> lines = lines_of(plan, comparison);
+    const std::set<std::size_t> equal = equal_keys(plan, comparison, lines);
+    for (const MemoryLine& line : lines) {
+        const StudyVariant& first = plan.variants[comparison.rows[line.rows.front()].config];
+        std::set<std::size_t> untold = bandwidth_keys(plan, first.memory_model);
+        untold.insert(equal.begin(), equal.end());
         BandwidthCurve curve;
-        curve.label = line.label;
+        curve.label = text_without(plan, first, untold);
+        curve.memory = line.memory;
         curve.view = line.view;
         for (std::size_t i = 0; i < line.rows.size(); ++i) {
             curve.points.push_back(point_of(comparison.rows[line.rows[i]]));

@@ -14,9 +14,15 @@ namespace degs::sim {
 /// The bus with the largest bandwidth that a configuration can have takes no time for a frame.
 constexpr double kUnlimitedGbPerS = 1e5;
 
+/// A curve goes along one axis of memory, the first of these that the study varies: the bandwidth
+/// of a bus; the channels, the data rate, or the file of an LPDDR5 memory; the keys of memory that
+/// are linked with it change along, too. All other keys, and the model of the memory, are the same
+/// in all of its points.
+
 /// What 10 % more bandwidth gains in percent, by row: by interpolation between the neighbouring
 /// points of the same design in the logarithms of bandwidth and latency, and empty at the ends.
-/// Without any entry if the study does not vary the bandwidth.
+/// Without any entry if the study does not vary the bandwidth, and empty in a line that has two
+/// latencies at one bandwidth, because it is no function of it.
 std::vector<std::optional<double>> elasticities(const StudyPlan& plan,
                                                 const Comparison& comparison);
 
@@ -29,7 +35,8 @@ struct BandwidthPoint {
 
 /// A design on a view, by bandwidth.
 struct BandwidthCurve {
-    std::string label; ///< the design and the values of the other keys that are varied
+    std::string label;  ///< the design and the values of the keys by which the curves differ
+    std::string memory; ///< its name, or the model if that changes along the curve
     std::size_t view = 0;
     std::vector<BandwidthPoint> points;         ///< from the least bandwidth to the most
     std::optional<double> unlimited_latency_ms; ///< with kUnlimitedGbPerS

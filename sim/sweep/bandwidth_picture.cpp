@@ -34,14 +34,22 @@ DrawnLine part_of_frame(const BandwidthCurve& curve, const char* label, Optional
     return line;
 }
 
+/// Whether all curves are of the same memory, which then needs no mention at each line.
+bool have_one_memory(const std::vector<BandwidthCurve>& curves) {
+    return std::all_of(curves.begin(), curves.end(), [&curves](const BandwidthCurve& curve) {
+        return curve.memory == curves.front().memory;
+    });
+}
+
 /// One design alone is split into its stages.
 std::vector<DrawnLine> drawn_lines(const std::vector<BandwidthCurve>& curves, std::size_t view) {
+    const bool one_memory = have_one_memory(curves);
     std::vector<DrawnLine> lines;
     const BandwidthCurve* first = nullptr;
     for (const BandwidthCurve& curve : curves) {
         if (curve.view == view && lines.size() < kMostLines) {
             DrawnLine line;
-            line.label = curve.label;
+            line.label = (one_memory ? "" : curve.memory + ": ") + curve.label;
             for (const BandwidthPoint& point : curve.points) {
                 line.points.emplace_back(point.gb_per_s, point.latency_ms);
             }
@@ -140,6 +148,23 @@ std::vector<std::string> legend_of(const std::vector<DrawnLine>& lines) {
     return labels;
 }
 
+/// The memory, and the dashed lines that are drawn.
+std::string explanation(const std::vector<BandwidthCurve>& curves,
+                        const std::vector<std::vector<DrawnLine>>& panels) {
+    bool across = false, upright = false;
+    for (const std::vector<DrawnLine>& lines : panels) {
+        for (const DrawnLine& line : lines) {
+            across |= line.unlimited_ms.has_value();
+            upright |= line.enough_gb_per_s.has_value();
+        }
+    }
+    return (have_one_memory(curves) ? "Memory: " + curves.front().memory + ". " : "") +
+           (across ? "Dashed across: memory without limit. " : "") +
+           (upright ? "Dashed upright, with numbers: from there on, 10 % more bandwidth gain less "
+                      "than 1 %."
+                    : "");
+}
+
 } // namespace
 
 std::string bandwidth_picture(const StudyPlan& plan, const Comparison& comparison) {
@@ -149,16 +174,16 @@ std::string bandwidth_picture(const StudyPlan& plan, const Comparison& compariso
     }
     const std::string title = "Latency over the bandwidth of memory" +
                               std::string(comparison.is_estimated() ? " (estimated)" : "");
+    std::vector<std::vector<DrawnLine>> panels;
+    for (std::size_t v = 0; v < std::min(comparison.views.size(), kMostViews); ++v) {
+        panels.push_back(drawn_lines(curves, v));
+    }
     Svg svg;
     svg.text(kPlotMargin, 26, title, {16, kInk, "start", true});
-    svg.text(
-        kPlotMargin, 46,
-        "Dashed across: memory without limit. Dashed upright, with numbers: from there on, 10 % "
-        "more bandwidth gain less than 1 %.",
-        {kSmallText, kGrey, "start", false});
+    svg.text(kPlotMargin, 46, explanation(curves, panels), {kSmallText, kGrey, "start", false});
     double top = 60;
-    for (std::size_t v = 0; v < std::min(comparison.views.size(), kMostViews); ++v) {
-        const std::vector<DrawnLine> lines = drawn_lines(curves, v);
+    for (std::size_t v = 0; v < panels.size(); ++v) {
+        const std::vector<DrawnLine>& lines = panels[v];
         if (lines.empty()) {
             continue;
         }

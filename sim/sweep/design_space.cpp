@@ -206,6 +206,19 @@ StudyVariant DesignSpace::variant(const LoadedDesign& design,
     return variant;
 }
 
+/// Says which memory the variant of a study has that varies it.
+void DesignSpace::note_memory(const RunConfig& config, StudyVariant& variant) const {
+    if (std::none_of(plan_.keys.begin(), plan_.keys.end(),
+                     [](const std::string& key) { return key.rfind("memory.", 0) == 0; })) {
+        return;
+    }
+    const nlohmann::ordered_json memory = resolved(config)["memory"];
+    variant.memory_model = memory["model"].get<std::string>();
+    variant.memory_name = variant.memory_model == "lpddr5"
+                              ? memory["lpddr5"]["name"].get<std::string>()
+                              : variant.memory_model;
+}
+
 /// Calls `change` with every key that has another value at a place than the design's own.
 template <class Change>
 void DesignSpace::for_each_change(const Genes& place, const Change& change) const {
@@ -239,6 +252,7 @@ DesignSpace::Added DesignSpace::add(const Genes& place) {
         try {
             plan_.request.configs.push_back({made.name, load_run_config(ConfigSource::from_tree(
                                                             std::move(tree), design.overrides))});
+            note_memory(plan_.request.configs.back().config, made);
             known->second = plan_.variants.size();
             plan_.variants.push_back(std::move(made));
         } catch (const InputError& infeasible) {
@@ -262,6 +276,7 @@ void DesignSpace::add_baseline() {
             place = place && other != name ? std::optional(*place + 1) : place;
         }
         plan_.variants.insert(plan_.variants.begin(), variant(*design, {}));
+        note_memory(design->config, plan_.variants.front());
         plan_.request.configs.insert(plan_.request.configs.begin(), {name, design->config});
     }
     plan_.baseline = *known->second;
@@ -271,6 +286,7 @@ void DesignSpace::add_design(const std::string& name) {
     for (const LoadedDesign& design : designs_) {
         if (design.name == name && variants_.emplace(name, plan_.variants.size()).second) {
             plan_.variants.push_back(variant(design, {}));
+            note_memory(design.config, plan_.variants.back());
             plan_.request.configs.push_back({name, design.config});
         }
     }

@@ -72,6 +72,7 @@ private:
                               const AxisValue& value);
     template <class Change>
     void for_each_change(const Genes& place, const Change& change) const;
+    void note_memory(const RunConfig& config, StudyVariant& variant) const;
     StudyVariant variant(const LoadedDesign& design,
                          const std::map<std::string, std::string>& texts) const;
 

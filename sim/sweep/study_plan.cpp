@@ -152,6 +152,17 @@ Aims aims_of(const Study& study) {
 
 } // namespace
 
+std::string text_without(const StudyPlan& plan, const StudyVariant& variant,
+                         const std::set<std::size_t>& along) {
+    std::string text = variant.design;
+    for (std::size_t k = 0; k < plan.keys.size(); ++k) {
+        if (along.count(k) == 0) {
+            text += " " + plan.keys[k] + "=" + variant.values[k];
+        }
+    }
+    return text;
+}
+
 StudyPlan plan_views(const Study& study) {
     StudyPlan plan;
     plan.name = study.name;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct StudyVariant {
     std::string name; ///< unique: the design and the keys that differ from its file
     std::string design;
     std::vector<std::string> values; ///< in the order of StudyPlan::keys
+    std::string memory_model{};      ///< bus or lpddr5, of studies that vary the memory
+    std::string memory_name{};       ///< what reports call it
 };
 
 /// A variant that cannot be built.
@@ -56,6 +59,12 @@ struct StudyPlan {
     std::vector<std::string> scene_digests; ///< with their cameras
     std::string digest;                     ///< of all points, 32 hexadecimal digits
 };
+
+/// The design of a variant and the values of all keys but those at the `along` positions, for
+/// people: variants with the same text differ in those keys alone, so that numbers derived from
+/// several points may take them together.
+std::string text_without(const StudyPlan& plan, const StudyVariant& variant,
+                         const std::set<std::size_t>& along);
 
 /// Most points of a study, with those that cannot be built.
 constexpr std::size_t kMostPoints = 100000;

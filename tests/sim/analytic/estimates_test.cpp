@@ -6,41 +6,17 @@
 
 #include "sim/search/search.hpp"
 #include "tests/sim/process/child.hpp"
+#include "tests/sim/process/csv_rows.hpp"
 
 namespace degs::sim_test {
 namespace {
 
 using nlohmann::json;
-using Row = std::map<std::string, std::string>;
 
 const std::string kEstimatedScene = "synthetic:object,gaussians=2000";
 /// What simulations have and estimates do not.
 const std::vector<std::string> kOnlySimulated{"slots.useful", "dram.bytes_read", "image.psnr_db",
                                               "throughput_fps"};
-
-/// Rows of a CSV without quoted cells, by heading.
-std::vector<Row> rows_of(const std::string& file) {
-    std::istringstream lines(read_file(file));
-    std::vector<std::string> headings;
-    std::vector<Row> rows;
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream cells(line + ",");
-        std::vector<std::string> row;
-        for (std::string cell; std::getline(cells, cell, ',');) {
-            row.push_back(cell);
-        }
-        if (headings.empty()) {
-            headings = row;
-            continue;
-        }
-        Row named;
-        for (std::size_t c = 0; c < headings.size(); ++c) {
-            named[headings[c]] = row.at(c);
-        }
-        rows.push_back(named);
-    }
-    return rows;
-}
 
 /// Lines about the progress are allowed.
 void expect_no_failure(const Outcome& outcome) {
@@ -83,7 +59,7 @@ std::string sweep_out(const Folder& folder, const std::string& study,
 /// The fidelities of all rows of the study's results, each once.
 std::string fidelities_in(const Folder& folder) {
     std::string words;
-    for (const Row& row : rows_of(folder / "out/results.csv")) {
+    for (const CsvRow& row : rows_by_heading(read_file(folder / "out/results.csv"))) {
         if (words.find(row.at("fidelity")) == std::string::npos) {
             words += row.at("fidelity");
         }
@@ -109,9 +85,9 @@ TEST(Estimates, AreThoseOfTheSameRun) {
 TEST(Estimates, HaveNothingThatOnlyASimulationHas) {
     const Folder folder;
     expect_no_failure(compare_estimates(folder / "out"));
-    const std::vector<Row> rows = rows_of(folder / "out/compare.csv");
+    const std::vector<CsvRow> rows = rows_by_heading(read_file(folder / "out/compare.csv"));
     ASSERT_EQ(rows.size(), 3U);
-    for (const Row& row : rows) {
+    for (const CsvRow& row : rows) {
         EXPECT_EQ(row.at("fidelity"), "analytic");
         for (const std::string& name : kOnlySimulated) {
             EXPECT_EQ(row.at(name), "") << name;
@@ -135,7 +111,7 @@ TEST(Estimates, HaveThePictureOfBandwidth) {
     expect_no_failure(degs({"sweep", file, "--out", folder / "out"}));
     const std::string picture = read_file(folder / "out/bandwidth.svg");
     EXPECT_NE(picture.find("Latency over the bandwidth of memory (estimated)"), std::string::npos);
-    const std::vector<Row> rows = rows_of(folder / "out/results.csv");
+    const std::vector<CsvRow> rows = rows_by_heading(read_file(folder / "out/results.csv"));
     ASSERT_EQ(rows.size(), 5U);
     EXPECT_EQ(std::stod(rows[0].at("dram.peak_gb_per_s")), 12.8);
     EXPECT_GT(std::stod(rows[1].at("bandwidth_elasticity")), 0);
@@ -158,7 +134,8 @@ TEST(Estimates, AreCalledSoWhereverTheyAreShown) {
     EXPECT_NE(swept.out.find("estimates of the analytic model"), std::string::npos) << swept.err;
     expect_no_failure(degs({"explore", study, "--out", folder / "found"}));
     EXPECT_NE(read_file(folder / "found/front.svg").find("(estimates)"), std::string::npos);
-    EXPECT_EQ(rows_of(folder / "found/front.csv").at(0).at("fidelity"), "analytic");
+    EXPECT_EQ(rows_by_heading(read_file(folder / "found/front.csv")).at(0).at("fidelity"),
+              "analytic");
 }
 
 TEST(Estimates, NeverMixWithSimulations) {
@@ -231,7 +208,7 @@ std::map<std::string, std::vector<double>> columns_of_designs(const std::vector<
     expect_no_failure(degs(and_more(words, {"--scene", scene, "--width", "480", "--no-reference",
                                             "--fidelity", fidelity, "--out", folder / "out"})));
     std::map<std::string, std::vector<double>> columns;
-    for (const Row& row : rows_of(folder / "out/compare.csv")) {
+    for (const CsvRow& row : rows_by_heading(read_file(folder / "out/compare.csv"))) {
         for (const std::string name : {"cycles", "energy.nj_per_frame"}) {
             columns[name].push_back(std::stod(row.at(name)));
         }

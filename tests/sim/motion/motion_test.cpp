@@ -71,6 +71,42 @@ TEST(Motion, PeriodsThatAreExact) {
     EXPECT_EQ(displays[2].repeated, 10);
 }
 
+/// Poses of 10 Hz on a display of 120 Hz: a pose is rendered twelve times, and older each time.
+TEST(Motion, PosesAge) {
+    const Motion motion = motion_of({1, 1, 1}, 10, {10, 120});
+    const std::vector<DisplayResult>& displays = motion.designs[0].displays;
+    EXPECT_NEAR(displays[0].photon_worst_ms, 150, 1e-9); // a period and a half, of a fresh pose
+    EXPECT_EQ(displays[1].frames, 36);
+    EXPECT_EQ(displays[1].repeated, 33);
+    // Ages of 0 to 11 periods, and a period and a half on top.
+    EXPECT_NEAR(displays[1].photon_mean_ms, (5.5 + 1.5) * 1e3 / 120, 1e-9);
+    EXPECT_NEAR(displays[1].photon_worst_ms, (11 + 1.5) * 1e3 / 120, 1e-9);
+}
+
+/// Refreshes of 75 Hz between poses of 50 Hz: the middle one of three is two thirds of its period
+/// late.
+TEST(Motion, AgesOfPosesBetweenRefreshes) {
+    const Motion motion = motion_of(std::vector<double>(6, 5), 50, {50, 75});
+    const DisplayResult& display = motion.designs[0].displays.at(1);
+    const double period = 1e3 / 75;
+    // Dates 0, 13.3, 26.7 ms of poses at 0, 0, 20 ms.
+    EXPECT_NEAR(display.photon_worst_ms, period * 2.5, 1e-9);
+    EXPECT_NEAR(display.photon_mean_ms, (0 + period + 2 * period - 20) / 3 + 1.5 * period, 1e-9);
+    EXPECT_EQ(display.frames, 9);
+    EXPECT_EQ(display.repeated, 3);
+}
+
+/// A frame that takes two refreshes shows the age that its pose had when it began.
+TEST(Motion, AgesOfFramesThatAreLate) {
+    const Motion motion = motion_of({12, 12}, 25, {25, 100});
+    const DisplayResult& display = motion.designs[0].displays.at(1);
+    // Begun at 0, 20, 40, 60 ms: ages 0, 20, 0, 20 ms.
+    EXPECT_EQ(display.frames, 4);
+    EXPECT_EQ(display.repeated, 6);
+    EXPECT_NEAR(display.photon_mean_ms, 10 + 25, 1e-9);
+    EXPECT_NEAR(display.photon_worst_ms, 20 + 25, 1e-9);
+}
+
 TEST(Motion, KnowsNoDisplayIfAFrameIsMissing) {
     Motion motion = motion_of({4, 8, 4}, 100, {100});
     motion.designs[0].ms[1].reset();

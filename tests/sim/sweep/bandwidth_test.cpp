@@ -8,6 +8,7 @@
 
 #include "sim/sweep/bandwidth_curve.hpp"
 #include "tests/sim/process/child.hpp"
+#include "tests/sim/process/csv_rows.hpp"
 
 namespace degs::sim_test {
 namespace {
@@ -26,6 +27,7 @@ struct Curve {
             StudyVariant variant;
             variant.design = "d";
             variant.values = {"", "1"};
+            variant.memory_model = variant.memory_name = "bus";
             ComparisonRow row;
             row.config = plan.variants.size();
             row.measures[Measure::DramPeak] = gb_per_s;
@@ -75,6 +77,104 @@ TEST(BandwidthCurves, AreOfStudiesThatVaryTheMemory) {
     curve.plan.variants[1].values[1] = "1";
     curve.plan.keys = {"packing.bytes", "clock_ghz"};
     EXPECT_TRUE(bandwidth_curves(curve.plan, curve.comparison).empty());
+}
+
+/// The results of degs-64, whose memory is a bus, with these axes.
+struct MemoryStudy {
+    Folder folder;
+    std::vector<CsvRow> rows;
+    std::string picture;
+
+    explicit MemoryStudy(const std::string& axes) {
+        std::ofstream(folder / "study.yaml")
+            << "study: memories\ndesigns:\n  - {include: " << config("degs-64")
+            << ", name: d}\nscenes: \"synthetic:object,gaussians=2000\"\ncameras: 1\nwidth: 160\n"
+               "fidelity: analytic\naxes:\n"
+            << axes;
+        const Outcome outcome = degs({"sweep", folder / "study.yaml", "--out", folder / "o"});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        rows = rows_by_heading(read_file(folder / "o/results.csv"));
+        picture = read_file(folder / "o/bandwidth.svg");
+    }
+
+    /// Every elasticity from the neighbours among the rows that have the same text in `same`.
+    void expect_elasticities(const std::vector<std::string>& same, std::size_t known) const {
+        std::map<std::vector<std::string>, std::map<double, const CsvRow*>> lines;
+        for (const CsvRow& row : rows) {
+            std::vector<std::string> line;
+            for (const std::string& key : same) {
+                line.push_back(row.at(key));
+            }
+            lines[line][std::stod(row.at("dram.peak_gb_per_s"))] = &row;
+        }
+        std::size_t found = 0;
+        for (const auto& [key, line] : lines) {
+            for (auto at = line.begin(); at != line.end(); ++at) {
+                SCOPED_TRACE(at->second->at("point"));
+                if (at == line.begin() || std::next(at) == line.end()) {
+                    EXPECT_EQ(at->second->at("bandwidth_elasticity"), "");
+                    continue;
+                }
+                const auto before = std::prev(at), after = std::next(at);
+                const double gain = std::log(std::stod(before->second->at("latency_ms")) /
+                                             std::stod(after->second->at("latency_ms"))) /
+                                    std::log(after->first / before->first);
+                EXPECT_NEAR(std::stod(at->second->at("bandwidth_elasticity")),
+                            100 * (std::exp(gain * std::log(1.1)) - 1), 1e-6);
+                ++found;
+            }
+        }
+        EXPECT_EQ(found, known);
+    }
+};
+
+std::string memory_file(const std::string& name) {
+    return config("memory/" + name);
+}
+
+TEST(BandwidthCurves, NeverTakeAPointOfAnotherModelOfMemory) {
+    // The design's own point is a bus of the bandwidth of the last file.
+    const MemoryStudy study("  memory.model: [lpddr5]\n  memory.lpddr5.include: [" +
+                            memory_file("lpddr5-3200x128") + ", " + memory_file("lpddr5-6400x128") +
+                            ", " + memory_file("lpddr5-6400x256") + "]\n");
+    ASSERT_EQ(study.rows.size(), 4U);
+    study.expect_elasticities({"memory.model"}, 1);
+    EXPECT_NE(study.picture.find("Memory: lpddr5."), std::string::npos);
+    EXPECT_EQ(study.picture.find("Dashed across"), std::string::npos);
+}
+
+TEST(BandwidthCurves, NeverTakeAPointOfAnotherLatencyOfMemory) {
+    const MemoryStudy study("  memory.latency_ns: [100, 2000]\n"
+                            "  memory.bandwidth_gb_per_s: [12.8, 25.6, 51.2, 204.8]\n");
+    ASSERT_EQ(study.rows.size(), 8U);
+    study.expect_elasticities({"memory.latency_ns"}, 4);
+    EXPECT_NE(study.picture.find("Memory: bus."), std::string::npos);
+    EXPECT_NE(study.picture.find("memory.latency_ns=2000"), std::string::npos);
+}
+
+TEST(BandwidthCurves, NeverTakeAPointOfAnotherFileOfMemory) {
+    const MemoryStudy study("  memory.model: [lpddr5]\n  memory.lpddr5.include: [" +
+                            memory_file("lpddr5-3200x128") + ", " + memory_file("lpddr5-6400x128") +
+                            "]\n  memory.lpddr5.channels: [1, 2, 4]\n");
+    ASSERT_EQ(study.rows.size(), 7U);
+    study.expect_elasticities({"memory.model", "memory.lpddr5.include"}, 2);
+    EXPECT_NE(study.picture.find("lpddr5-3200x128: d "), std::string::npos);
+    EXPECT_NE(study.picture.find("lpddr5-6400x128: d "), std::string::npos);
+}
+
+TEST(BandwidthCurves, OfTwoLatenciesAtOneBandwidthAreNone) {
+    const Curve curve({{100, 2}, {200, 1.5}, {200, 1.2}, {400, 1}});
+    EXPECT_TRUE(bandwidth_curves(curve.plan, curve.comparison).empty());
+}
+
+TEST(BandwidthCurves, ExplainOnlyTheDashedLinesThatTheyHave) {
+    const Curve limited({{100, 2}, {200, 1.5}, {400, 1.2}});
+    EXPECT_EQ(bandwidth_picture(limited.plan, limited.comparison).find("Dashed"),
+              std::string::npos);
+    const Curve across({{100, 2}, {200, 1.5}, {400, 1.2}, {1e5, 1}});
+    const std::string picture = bandwidth_picture(across.plan, across.comparison);
+    EXPECT_NE(picture.find("Dashed across"), std::string::npos);
+    EXPECT_EQ(picture.find("Dashed upright"), std::string::npos);
 }
 
 /// A point of a study, beside the one with twice its bandwidth.

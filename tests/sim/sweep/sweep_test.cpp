@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/sim/process/child.hpp"
+#include "tests/sim/process/csv_rows.hpp"
 
 namespace degs::sim_test {
 namespace {
@@ -215,30 +216,6 @@ TEST(SweepRuns, SurviveBeingKilled) {
     }
 }
 
-/// The cells of a CSV file without quoted ones, by row and column.
-std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) {
-    std::istringstream lines(csv);
-    std::vector<std::string> head;
-    std::vector<std::map<std::string, std::string>> rows;
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream cells(line + ",");
-        std::vector<std::string> row;
-        for (std::string cell; std::getline(cells, cell, ',');) {
-            row.push_back(cell);
-        }
-        if (head.empty()) {
-            head = row;
-            continue;
-        }
-        EXPECT_EQ(row.size(), head.size());
-        rows.emplace_back();
-        for (std::size_t c = 0; c < std::min(row.size(), head.size()); ++c) {
-            rows.back()[head[c]] = row[c];
-        }
-    }
-    return rows;
-}
-
 // The buffers of Table I from a quarter to four times their size on two scenes: the table, the
 // plots and the area come from the shipped study and one command.
 TEST(SweepCommand, AnArchitectsAfternoon) {
@@ -251,7 +228,7 @@ TEST(SweepCommand, AnArchitectsAfternoon) {
     EXPECT_NE(outcome.out.find("buffers: 40 of 40 points · 1 cannot be built\ncannot be built: "),
               std::string::npos)
         << outcome.out;
-    const auto rows = rows_of(read_file(folder / "o/results.csv"));
+    const auto rows = rows_by_heading(read_file(folder / "o/results.csv"));
     const std::map<std::string, double> table{{"gaussian_buffer.bytes", 73728},
                                               {"span_buffer.bytes", 2048},
                                               {"packing.bytes", 32768},
