@@ -43,5 +43,24 @@ TEST(OutputFile, MayBeNamedWithoutAFolder) {
     EXPECT_EQ(test::bytes_of(folder.path("plain.txt")), "x");
 }
 
+// Two files of a set and one of an earlier run that the new set has not.
+TEST(FileSet, ReplacesTheFilesOfAnEarlierRun) {
+    const test::Folder folder;
+    const std::string first = folder.write("a.txt", "old"), second = folder.path("b.txt");
+    const std::string gone = folder.write("c.txt", "old");
+    {
+        FileSet set;
+        for (const std::string& path : {first, second}) {
+            write_atomically(
+                path, [](const std::string& temporary) { std::ofstream(temporary) << "new"; });
+        }
+        EXPECT_EQ(test::bytes_of(first), "old");
+        set.publish({first, gone});
+    }
+    EXPECT_EQ(test::bytes_of(first), "new");
+    EXPECT_EQ(test::bytes_of(second), "new");
+    EXPECT_EQ(folder.entries(), 2U);
+}
+
 } // namespace
 } // namespace degs

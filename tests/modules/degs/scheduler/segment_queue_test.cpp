@@ -83,6 +83,18 @@ TEST(SegmentQueue, RoundRobinGoesOnBehindTheLastPick) {
     }
 }
 
+TEST(SegmentQueue, ARoundBeginsAnewWithItsTile) {
+    SegmentQueue queue(8, 1, 4, DomainScan::RoundRobin);
+    for (int tile = 0; tile < 2; ++tile) {
+        queue.push(queue.tile(tile), 0, 0);
+        queue.push(queue.tile(tile), 2, 1);
+        EXPECT_EQ(queue.pick(queue.tile(tile), 0), 0);
+        queue.pop(queue.tile(tile), 0);
+        queue.pop(queue.tile(tile), 2);
+        queue.clear(queue.tile(tile));
+    }
+}
+
 TEST(SegmentQueue, BlockedAtTMinusOneLegalAtT) {
     for (const DomainScan scan :
          {DomainScan::RoundRobin, DomainScan::Oldest, DomainScan::Deepest}) {

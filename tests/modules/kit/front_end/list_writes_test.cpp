@@ -119,5 +119,23 @@ TEST(ListChanges, CountWhatATileDidNotListBefore) {
                                                    second.tile_pairs()}));
 }
 
+// Lists stay in memory for the next frame, unless it has another workspace or follows a reset.
+TEST(ListChanges, KeepNothingOfAnotherWorkspaceOrFromBeforeAReset) {
+    const FrameWorkload frame = frame_of(6);
+    const auto written = [&frame](const auto& change) {
+        RenderJob job = make_render_job({&frame, &frame}, {}, 4);
+        change(job);
+        ListChanges changes(job, true);
+        std::uint64_t entries = 0;
+        for (std::size_t t = 0; t < job.tiles.size(); ++t) {
+            entries += job.tiles[t].frame == 1 ? changes.written(job.tiles[t]) : 0;
+        }
+        return entries;
+    };
+    EXPECT_EQ(written([](RenderJob&) {}), 0U);
+    EXPECT_EQ(written([](RenderJob& job) { job.bases[1].workspace = 4096; }), frame.tile_pairs());
+    EXPECT_EQ(written([](RenderJob& job) { job.first_since_reset = 1; }), frame.tile_pairs());
+}
+
 } // namespace
 } // namespace degs

@@ -246,5 +246,17 @@ TEST(ReuseCache, FramesShareNothing) {
     EXPECT_EQ(missed(cache, 3, 2, 2), 0U);
 }
 
+// The other tile of the first frame is that of another cache: what is kept for it is of no use to
+// the second.
+TEST(ReuseCache, AFrameLeavesNothingForTheNext) {
+    const FrameWorkload frame = lists_of({{0, 1}, {0, 1}}, 2);
+    const RenderJob job = job_of({&frame, &frame});
+    NextUses uses(job);
+    ReuseCache cache(job, uses, 8);
+    EXPECT_EQ(missed(cache, 0, 0, 2), 2U);
+    EXPECT_EQ(missed(cache, 2, 0, 2), 2U);
+    EXPECT_EQ(missed(cache, 3, 2, 2), 0U);
+}
+
 } // namespace
 } // namespace degs
