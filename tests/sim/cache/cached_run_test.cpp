@@ -201,7 +201,7 @@ TEST(FrameCache, FindsFramesByEverythingTheyDependOn) {
         [](auto& other) { other.dilation = 0.31; },
         [](auto& other) { other.jacobian_clamp *= 2; },
         [](auto& other) { other.alpha_min *= 2; },
-        [](auto& other) { other.cut = 9; },
+        [](auto& other) { other.cut = 20; }, // beyond the support of all splats
         [](auto& other) { other.order = SplatOrder::Distance; },
         [](auto& other) { other.compensated = true; },
         [](auto& other) { other.rule = ProjectionRule::Unscented; },

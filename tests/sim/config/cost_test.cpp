@@ -381,6 +381,7 @@ TEST(SmallRunEnergyOfPaths, IsOfAllFrames) {
     const nlohmann::json one = report_of("degs-64")["energy"];
     const nlohmann::json three = report_of("degs-64", {"--frames", "3"})["energy"];
     EXPECT_NEAR(three["nj_per_frame"].get<double>() * 3, three["total_nj"].get<double>(), 1e-3);
+    EXPECT_NEAR(three["nj_per_pixel"].get<double>() / one["nj_per_pixel"].get<double>(), 1, 0.1);
     EXPECT_NEAR(three["dynamic_nj"].get<double>() / one["dynamic_nj"].get<double>(), 3, 0.1);
 }
 

@@ -4,6 +4,7 @@
 
 #include "sim/memory/memory_pattern.hpp"
 #include "sim/memory/memory_report.hpp"
+#include "sim/memory/memory_traffic.hpp"
 #include "sim/memory/trace_reader.hpp"
 #include "tests/sim/process/child.hpp"
 
@@ -57,6 +58,19 @@ TEST(TrafficWindow, CountsWholeLines) {
     EXPECT_EQ(traffic_window(memory, 65), traffic_window(memory, 128));
     EXPECT_EQ(traffic_window(memory, 129), traffic_window(memory, 192));
     EXPECT_GT(traffic_window(memory, 64), traffic_window(memory, 65));
+}
+
+// What was on its way when the warm-up ended has met a memory that was not full yet, so its latency
+// does not count.
+TEST(TrafficWindow, LeavesOutLatenciesOfTheWarmUp) {
+    const dram::Config config;
+    dram::Lpddr5 memory("memory", config, Timebase(), config.channels);
+    MemoryTraffic traffic("traffic", memory, config, {});
+    const TrafficResult result = traffic.measure(2000, 0);
+    const std::uint64_t on_their_way = config.channels * traffic_window(config, 64);
+    EXPECT_GE(result.requests, 2000U);
+    EXPECT_LT(result.reads.samples(), result.requests - on_their_way / 2);
+    EXPECT_GE(result.reads.samples(), result.requests - on_their_way);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "sim/shell/scene_list.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -201,6 +202,15 @@ TEST(ZshCompletion, KnowsValuesFilesAndWhatMayBeRepeated) {
     EXPECT_NE(script.find(" synthetic:object "), std::string::npos);
     // Brackets end an explanation unless they are escaped.
     EXPECT_NE(run.find("\\[default exact\\]"), std::string::npos) << run;
+}
+
+// Settings belong to the scene in the same word.
+TEST(SceneLists, AreCutInFrontOfNames) {
+    using sim::split_scenes;
+    EXPECT_EQ(split_scenes({"a.spz?axes=rdf,synthetic:object,seed=2,b.ply"}),
+              (Words{"a.spz?axes=rdf", "synthetic:object,seed=2", "b.ply"}));
+    EXPECT_EQ(split_scenes({"synthetic:object", "gaussians=5"}),
+              (Words{"synthetic:object", "gaussians=5"}));
 }
 
 /// mandoc belongs to the packages of the tests (scripts/install.sh).

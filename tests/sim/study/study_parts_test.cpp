@@ -37,17 +37,17 @@ TEST(Draws, OfIntegersReachBothEnds) {
 // The crop of a study is of images in its own size.
 TEST(StudyViews, LoseTheirCropWithTheirSize) {
     StudyViews views;
-    views.crop = "8,8,16,16";
+    views.crop = "8,8,16x16";
     ViewOptions options;
     options.cameras = "1";
     replace_views(options, views);
-    EXPECT_EQ(views.crop, "8,8,16,16");
+    EXPECT_EQ(views.crop, "8,8,16x16");
     options.width = 320;
     replace_views(options, views);
     EXPECT_EQ(views.crop, "");
-    options.crop = "0,0,32,32";
+    options.crop = "0,0,32x32";
     replace_views(options, views);
-    EXPECT_EQ(views.crop, "0,0,32,32");
+    EXPECT_EQ(views.crop, "0,0,32x32");
 }
 
 TEST(StudyViews, TurnAboutTheNearestOfTheNearPlanes) {

@@ -14,8 +14,7 @@ using nlohmann::json;
 using Words = std::vector<std::string>;
 using Row = std::vector<double>;
 
-/// The last column of tiles is 22 pixels wide.
-const Words kExported{"--scene", "synthetic:object,gaussians=1000", "--width", "150"};
+const Words kExported{"--scene", "synthetic:object,gaussians=1000", "--width", "160"};
 
 struct Exported {
     json about;
@@ -38,10 +37,11 @@ std::vector<Row> table(const std::string& text, const std::string& header) {
     return rows;
 }
 
-Exported exported(const std::string& design) {
+Exported exported(const std::string& design, const Words& more = {}) {
     const Folder folder;
     Words arguments{"workload", "export", config(design), "--no-cache", "--out", folder / "out"};
     arguments.insert(arguments.end(), kExported.begin(), kExported.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
     expect_success(degs(arguments));
     Exported result;
     result.about = json::parse(read_file(folder / "out/workload.json"));
@@ -102,10 +102,25 @@ TEST(SmallRunWorkload, ListsAreNearToFarAndRowsInsideTheirTile) {
     for (const Row& row : work.rows) {
         EXPECT_GE(row[3], 0);
         EXPECT_GE(row[4], 1);
-        EXPECT_LE(row[3] + row[4], std::fmod(row[0], 5) == 4 ? 150 - 4 * 32 : 32);
+        EXPECT_LE(row[3] + row[4], 32);
         pixels += row[4];
     }
     EXPECT_EQ(work.about["pixels"], pixels);
+}
+
+// Columns 20 to 119 are drawn, of four columns of tiles.
+TEST(Workload, RowsEndWhereACropDoes) {
+    const Exported work = exported("degs-64", {"--crop", "20,8,100x60"});
+    ASSERT_GT(work.rows.size(), 1000U);
+    bool begins = false, ends = false;
+    for (const Row& row : work.rows) {
+        const double column = 32 * std::fmod(row[0], 4);
+        EXPECT_GE(column + row[3], 20);
+        EXPECT_LE(column + row[3] + row[4], 120);
+        begins = begins || column + row[3] == 20;
+        ends = ends || column + row[3] + row[4] == 120;
+    }
+    EXPECT_TRUE(begins && ends);
 }
 
 class SmallRunWorkloadOf : public testing::TestWithParam<std::string> {};
