@@ -216,8 +216,8 @@ TEST_P(TrainedNaiveBlock, TakesAndSendsTheSame) {
         GTEST_SKIP() << "the trained scene flowers is not in " << trained_scenes()
                      << "; set DEGS_SCENES";
     }
-    expect_naive_block(GetParam(), {"--scene", scene.string(), "--camera", "2", "--width", "360"},
-                       10000);
+    expect_naive_block(GetParam(), {"--scene", scene.string(), "--camera", "2", "--width", "200"},
+                       3000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Flowers, TrainedNaiveBlock, testing::ValuesIn(kOthers));

@@ -133,11 +133,7 @@ std::string ring_of(const std::string& design, const std::string& buffer) {
     return plain ? "splats" : buffer;
 }
 
-class TraceOf : public ::testing::TestWithParam<Traced> {};
-
-TEST_P(TraceOf, IntegratesToTheReport) {
-    const Folder folder;
-    const TraceRun run = traced(folder, GetParam(), {});
+void expect_integrals_of_the_report(const Traced& design, const TraceRun& run) {
     const Reader reader(run.trace);
     for (const char* slot : {"useful", "boundary", "terminated", "conflict", "ports", "padding",
                              "starved", "blocked", "drain"}) {
@@ -155,7 +151,7 @@ TEST_P(TraceOf, IntegratesToTheReport) {
         if (!buffer.contains("rings")) {
             continue;
         }
-        const std::string ring = ring_of(GetParam().design, name);
+        const std::string ring = ring_of(design.design, name);
         const double cells = buffer["rings"].get<double>() * buffer["depth"].get<double>();
         const double cycles = run.report["timing"]["cycles"];
         EXPECT_EQ(reader.integral(kBuffers, ring + " (of"),
@@ -165,9 +161,7 @@ TEST_P(TraceOf, IntegratesToTheReport) {
 }
 
 // The power of every block integrates to its energy, and that of all to the whole.
-TEST_P(TraceOf, PowerIntegratesToTheEnergy) {
-    const Folder folder;
-    const TraceRun run = traced(folder, GetParam(), {});
+void expect_power_of_the_energy(const TraceRun& run) {
     const Reader reader(run.trace);
     const json& energy = run.report["energy"];
     const double clock = run.report["timing"]["clock_ghz"];
@@ -223,13 +217,11 @@ const std::map<std::string, std::map<std::string, std::string>>& units_of_stages
     return units;
 }
 
-TEST_P(TraceOf, ShowsHowBusyTheUnitsWere) {
-    const Folder folder;
-    const TraceRun run = traced(folder, GetParam(), {});
+void expect_busy_units(const Traced& design, const TraceRun& run) {
     const Reader reader(run.trace);
     std::size_t stages = 0;
-    for (const auto& [design, units] : units_of_stages()) {
-        if (std::string(GetParam().name).rfind(design, 0) == 0) {
+    for (const auto& [family, units] : units_of_stages()) {
+        if (std::string(design.name).rfind(family, 0) == 0) {
             for (const auto& [stage, unit] : units) {
                 if (run.report["stages"].contains(stage)) {
                     ++stages;
@@ -243,12 +235,7 @@ TEST_P(TraceOf, ShowsHowBusyTheUnitsWere) {
 }
 
 // In every step the classes fill the part of the blending window that lies in it.
-TEST_P(TraceOf, FillsEveryStepOfTheWindow) {
-    if (GetParam().name == std::string("gscore_clusters")) {
-        return; // several cycles of a cluster are dealt to two steps class by class
-    }
-    const Folder folder;
-    const TraceRun run = traced(folder, GetParam(), {});
+void expect_full_steps(const TraceRun& run) {
     const json& slots = run.report["slots"];
     const std::uint64_t step = run.trace["otherData"]["step_cycles"];
     const double per_us = 1e3 * run.trace["otherData"]["clock_ghz"].get<double>();
@@ -274,10 +261,19 @@ TEST_P(TraceOf, FillsEveryStepOfTheWindow) {
     }
 }
 
-TEST_P(TraceOf, IsTheSameInStrict) {
+class TraceOf : public ::testing::TestWithParam<Traced> {};
+
+TEST_P(TraceOf, AgreesWithTheReportAndWithStrict) {
     const Folder exact, strict;
-    EXPECT_EQ(traced(exact, GetParam(), {}).text,
-              traced(strict, GetParam(), {"--fidelity", "strict"}).text);
+    const TraceRun run = traced(exact, GetParam(), {});
+    expect_integrals_of_the_report(GetParam(), run);
+    expect_power_of_the_energy(run);
+    expect_busy_units(GetParam(), run);
+    // Several cycles of a cluster are dealt to two steps class by class.
+    if (GetParam().name != std::string("gscore_clusters")) {
+        expect_full_steps(run);
+    }
+    EXPECT_EQ(run.text, traced(strict, GetParam(), {"--fidelity", "strict"}).text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Designs, TraceOf, ::testing::ValuesIn(all_traced()),

@@ -62,7 +62,11 @@ void expect_equal(const Results& of_scene, Results of_file, const std::string& f
     EXPECT_TRUE(of_file.image == of_scene.image);
 }
 
-void expect_packed_as_scene(const Words& view) {
+TEST(PackedFrame, GivesEveryDesignTheReportOfItsScene) {
+    const Words view{"--scene",  "synthetic:outdoor,gaussians=1000",
+                     "--width",  "64",
+                     "--height", "48",
+                     "--camera", "1"};
     const Folder folder;
     const Words designs = shipped_designs();
     EXPECT_EQ(designs.size(), 27U);
@@ -73,15 +77,6 @@ void expect_packed_as_scene(const Words& view) {
         SCOPED_TRACE(design);
         expect_equal(results_of(design, view), results_of(design, {"--workload", file}), file);
     }
-}
-
-TEST(PackedFrame, GivesEveryDesignTheReportOfAnObject) {
-    expect_packed_as_scene({"--scene", "synthetic:object,gaussians=1000", "--width", "48"});
-}
-
-TEST(PackedFrame, GivesEveryDesignTheReportOfAGarden) {
-    expect_packed_as_scene({"--scene", "synthetic:outdoor,gaussians=1000", "--width", "64",
-                            "--height", "48", "--camera", "1"});
 }
 
 TEST(PackedFrame, HoldsEveryNumberSetAndRule) {
