@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include <systemc>
@@ -109,6 +110,11 @@ struct Processor : sc_core::sc_module {
 int render(const char* design_file, const char* scene_file, int position) {
     const degs::Design design = degs::load_design(design_file);
     const degs::MemoryScene scene = degs::load_memory_scene(scene_file);
+    for (const std::vector<std::string>* sentences : {&design.warnings, &scene.notes}) {
+        for (const std::string& sentence : *sentences) {
+            std::fprintf(stderr, "warning: %s\n", sentence.c_str());
+        }
+    }
     if (position < 0 || std::size_t(position) >= scene.views.size()) {
         std::printf("%s has cameras 0 to %zu.\n", scene_file, scene.views.size() - 1);
         return 1;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include <systemc>
@@ -36,6 +37,9 @@ struct Order {
         }
         design = degs::load_design(argv[1]);
         scene = degs::load_memory_scene(argv[2]);
+        for (const std::string& note : scene.notes) {
+            std::fprintf(stderr, "warning: %s\n", note.c_str());
+        }
         view = scene.views.front();
         const int width = argc > 3 ? std::atoi(argv[3]) : 64;
         const double factor = double(width) / view.width;

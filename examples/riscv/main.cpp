@@ -55,6 +55,9 @@ bool parse(int argc, char* argv[], Arguments& to) {
 int boot(const Arguments& arguments) {
     enum Initiator : std::size_t { kCpu, kAccelerator, kLoader, kInitiators };
     const degs::MemoryScene scene = degs::load_memory_scene(arguments.files[1]);
+    for (const std::string& note : scene.notes) {
+        std::fprintf(stderr, "warning: %s\n", note.c_str());
+    }
     degs::AcceleratorOptions options;
     options.antialiased = scene.antialiased;
     if (arguments.lpddr5) { // which sorts accesses by date
@@ -88,7 +91,9 @@ int boot(const Arguments& arguments) {
     }
     sc_core::sc_start();
     if (!bus.ended()) {
-        std::printf("The firmware sleeps for ever.\n");
+        std::printf("The firmware %s.\n", cpu.fault().empty()
+                                              ? "sleeps for ever"
+                                              : ("has stopped: " + cpu.fault()).c_str());
         return 1;
     }
     std::printf("%llu instructions, %s\n", static_cast<unsigned long long>(cpu.instructions()),

@@ -24,7 +24,8 @@ RiscvProgram load_riscv_program(const std::string& file);
 RiscvProgram riscv_program(const std::vector<unsigned char>& elf, const std::string& name);
 
 /// A RISC-V core (RV32IM, Zicsr, machine mode) as a TLM-2.0 initiator, for platforms that run bare
-/// code. It starts with the simulation.
+/// code. It starts with the simulation, and stops at a trap before the program has
+/// written mtvec.
 ///
 /// An instruction takes one period of its clock. Code and data of the program lie in the core's own
 /// memory, which has no wait states; every address above goes to `out`, as an LT access of 1, 2 or
@@ -47,6 +48,10 @@ public:
 
     /// Instructions that were retired; those that raised an exception are not.
     std::uint64_t instructions() const;
+    /// Why the core stands still for ever, as a sentence without its end: "an illegal instruction
+    /// (mcause 2) at 0x00000000, and no trap vector is set". Empty if it does not: without a
+    /// vector a trap would begin at address 0, which traps again or starts the program anew.
+    const std::string& fault() const { return fault_; }
 
 private:
     class Hart;
@@ -54,6 +59,7 @@ private:
 
     std::unique_ptr<Hart> hart_;
     sc_core::sc_time period_;
+    std::string fault_;
 };
 
 } // namespace degs

@@ -47,11 +47,14 @@ BootResult run_boot(const BootRequest& request, const View& view) {
     BootPlatform platform("soc", request, view);
     {
         const Progress progress("firmware");
-        sc_core::sc_start();
+        sc_core::sc_start(sc_core::sc_time(request.limit_ms, sc_core::SC_MS),
+                          sc_core::SC_EXIT_ON_STARVATION);
     }
     BootResult result;
     result.console = platform.port().console();
     result.ended = platform.port().ended();
+    result.limited = !result.ended && sc_core::sc_pending_activity();
+    result.fault = platform.cpu().fault();
     result.status = platform.port().status();
     result.instructions = platform.cpu().instructions();
     result.simulated_ms = sc_core::sc_time_stamp().to_seconds() * 1e3;
@@ -76,8 +79,10 @@ nlohmann::ordered_json boot_json(const BootRequest& request, const View& view,
 std::string boot_words(const BootRequest& request, const View& view, const BootResult& result) {
     const std::string heading =
         soc_heading(request.config, request.memory, view) + " · RV32IM core";
-    const std::string end =
-        result.ended ? "ended with status " + std::to_string(result.status) : "sleeps for ever";
+    const std::string end = result.ended ? "ended with status " + std::to_string(result.status)
+                            : !result.fault.empty() ? "has stopped"
+                            : result.limited        ? "has not ended"
+                                                    : "sleeps for ever";
     return visible(heading) + "\n" + console_lines(result.console) + "firmware " +
            visible(request.firmware) + ", " + end + " · " + grouped(result.instructions) +
            " instructions · " + three_digits(result.simulated_ms) + " ms · host " +

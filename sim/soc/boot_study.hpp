@@ -20,11 +20,14 @@ struct BootRequest {
     dram::Config memory;
     std::string firmware; ///< the file, or "built in"
     RiscvProgram program;
+    double limit_ms = 1000; ///< of simulated time
 };
 
 struct BootResult {
-    std::string console; ///< what the firmware printed
-    bool ended = false;  ///< by itself; otherwise it waits for an interrupt that never comes
+    std::string console;  ///< what the firmware printed
+    bool ended = false;   ///< by itself
+    bool limited = false; ///< by the limit
+    std::string fault;    ///< why it has stopped without an end, see RiscvCpu; empty: it waits
     std::uint32_t status = 0;
     std::uint64_t instructions = 0;
     double simulated_ms = 0; ///< from power-on

@@ -11,8 +11,10 @@
 #include "sim/shell/view_options.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/soc/boot_study.hpp"
+#include "sim/soc/platform_keys.hpp"
 #include "sim/soc/soc_study.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/words.hpp"
 #include "sim/trace/trace_options.hpp"
 
 namespace degs::sim {
@@ -24,7 +26,9 @@ struct SocOptions {
     std::string memory;
     std::string cpu = "host";
     std::string firmware;
+    double limit_ms = 1000;
     std::vector<const CLI::Option*> traffic; ///< what a platform that boots does not have
+    const CLI::Option* limit = nullptr;      ///< what only that has
     ViewRequest view;
     std::vector<double> loads;
     int cores = 4;
@@ -48,7 +52,9 @@ std::vector<double> loads_of(const SocOptions& options, double peak_gb_per_s) {
 }
 
 RunConfig soc_config(const SocOptions& options, dram::Config& memory) {
-    RunConfig config = load_run_config(options.config, options.overrides);
+    const ConfigSource source = ConfigSource::from_file(options.config, options.overrides);
+    RunConfig config = load_run_config(source);
+    print_warnings(check_platform_keys(source, config));
     if (!options.memory.empty()) {
         ConfigSource::from_file(options.memory).load(memory);
     }
@@ -83,6 +89,7 @@ void boot(const SocOptions& options) {
     refuse_with_riscv(options);
     BootRequest request;
     request.config = soc_config(options, request.memory);
+    request.limit_ms = options.limit_ms;
     request.firmware = options.firmware.empty() ? "built in" : options.firmware;
     request.program = load_firmware(options.firmware);
     const View view = loaded_view(options, request.config);
@@ -90,6 +97,13 @@ void boot(const SocOptions& options) {
     const BootResult result = run_boot(request, view);
     out.replace([&] { out.write_json("soc.json", boot_json(request, view, result)); });
     print(boot_words(request, view, result));
+    if (!result.fault.empty()) {
+        throw InputError("The firmware has stopped: " + result.fault + ".");
+    }
+    if (result.limited) {
+        throw InputError("The firmware has not ended after " + three_digits(options.limit_ms) +
+                         " ms of simulated time, the limit; --limit-ms sets another one.");
+    }
     if (!result.ended) {
         throw InputError("The firmware waits for an interrupt that never comes.");
     }
@@ -103,8 +117,9 @@ void run(const SocOptions& options) {
         boot(options);
         return;
     }
-    if (!options.firmware.empty()) {
-        throw InputError("--firmware needs --cpu riscv.");
+    if (!options.firmware.empty() || options.limit->count() > 0) {
+        throw InputError(std::string(options.firmware.empty() ? "--limit-ms" : "--firmware") +
+                         " needs --cpu riscv.");
     }
     SocRequest request;
     request.config = soc_config(options, request.memory);
@@ -143,6 +158,12 @@ void add_cpu_options(CLI::App& command, SocOptions& options) {
         .add_option("--firmware", options.firmware,
                     "ELF executable for --cpu riscv; default: the one that is built in")
         ->type_name("FILE");
+    options.limit = command
+                        .add_option("--limit-ms", options.limit_ms,
+                                    "simulated time after which firmware of --cpu riscv that has "
+                                    "not ended is given up")
+                        ->check(CLI::Range(1e-3, 1e9))
+                        ->capture_default_str();
 }
 
 void add_traffic_options(CLI::App& command, SocOptions& options) {

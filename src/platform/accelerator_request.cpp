@@ -127,12 +127,11 @@ AcceleratorFault check_regions(const AcceleratorRequest& request) {
         if (regions[i].begin % kBaseAlignment != 0) {
             return fault(AcceleratorError::Misaligned, kBases[i]);
         }
-        if (regions[i].bytes > ~regions[i].begin) {
+        if (regions[i].passes_last_address()) {
             return fault(AcceleratorError::Overlap, kBases[i]);
         }
         for (std::size_t j = 0; j < i; ++j) {
-            if (regions[i].begin < regions[j].begin + regions[j].bytes &&
-                regions[j].begin < regions[i].begin + regions[i].bytes) {
+            if (regions[i].overlaps(regions[j])) {
                 return fault(AcceleratorError::Overlap, kBases[i]);
             }
         }

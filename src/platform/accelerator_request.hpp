@@ -36,6 +36,12 @@ struct AcceleratorRequest {
     /// A part of memory that belongs to the accelerator.
     struct Region {
         std::uint64_t begin = 0, bytes = 0;
+        /// A region may end with the last address.
+        bool passes_last_address() const { return bytes != 0 && bytes - 1 > ~begin; }
+        bool overlaps(const Region& other) const {
+            return bytes != 0 && other.bytes != 0 &&
+                   (begin - other.begin < other.bytes || other.begin - begin < bytes);
+        }
     };
     /// The regions of geometry, SH, workspace and frame buffer.
     std::vector<Region> regions() const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "degs/riscv_cpu.hpp"
 
+#include <array>
+#include <cstdio>
 #include <cstring>
 
 #include "degs/error.hpp"
@@ -22,6 +24,42 @@ RiscvProgram load_riscv_program(const std::string& file) {
     const std::string text = read_text(file, kMostBytes);
     return riscv_program({text.begin(), text.end()}, file);
 }
+
+namespace {
+
+const char* words_of(std::uint32_t cause) {
+    switch (cause) {
+    case rv32::kMisalignedFetch:
+        return "a jump to a misaligned address";
+    case rv32::kFetchFault:
+        return "no memory to execute";
+    case rv32::kIllegalInstruction:
+        return "an illegal instruction";
+    case rv32::kBreakpoint:
+        return "a breakpoint";
+    case rv32::kMisalignedLoad:
+    case rv32::kMisalignedStore:
+        return "a misaligned access";
+    case rv32::kLoadFault:
+    case rv32::kStoreFault:
+        return "an access that nobody answers";
+    case rv32::kMachineCall:
+        return "a call of the environment";
+    default:
+        return "an interrupt";
+    }
+}
+
+std::string fault_of(const rv32::Core& core) {
+    std::uint32_t cause = 0, place = 0;
+    core.read_csr(rv32::kMcause, cause);
+    core.read_csr(rv32::kMepc, place);
+    std::array<char, 64> where{};
+    std::snprintf(where.data(), where.size(), " (mcause 0x%x) at 0x%08x", cause, place);
+    return words_of(cause) + std::string(where.data()) + ", and no trap vector is set";
+}
+
+} // namespace
 
 /// The core and what it sees: its own memory, and the socket behind it.
 class RiscvCpu::Hart : private rv32::Memory {
@@ -95,6 +133,10 @@ void RiscvCpu::run() {
             continue;
         }
         core.step();
+        if (core.trapped_without_vector()) {
+            fault_ = fault_of(core);
+            return;
+        }
         wait(period_);
     }
 }

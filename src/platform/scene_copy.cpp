@@ -49,6 +49,21 @@ tlm::tlm_response_status read_timed(MemoryGateway& memory, std::uint64_t address
     return tlm::TLM_OK_RESPONSE;
 }
 
+// A target may move a part, such as a page, and is asked for the rest. Returns what it has moved.
+std::uint64_t read_debug(MemoryGateway& memory, std::uint64_t address, unsigned char* data,
+                         std::uint64_t bytes) {
+    for (std::uint64_t at = 0; at < bytes;) {
+        tlm::tlm_generic_payload payload;
+        set_access(payload, tlm::TLM_READ_COMMAND, address + at, data + at, bytes - at);
+        const std::uint64_t moved = memory.debug(payload);
+        if (moved == 0) {
+            return at;
+        }
+        at += std::min(moved, bytes - at);
+    }
+    return bytes;
+}
+
 // Grows as it is read, because memory may hold less than a wrong count promises.
 tlm::tlm_response_status read(MemoryGateway& memory, std::uint64_t address, std::uint64_t bytes,
                               std::vector<unsigned char>& out) {
@@ -56,9 +71,7 @@ tlm::tlm_response_status read(MemoryGateway& memory, std::uint64_t address, std:
     for (std::uint64_t at = 0; at < bytes; at = out.size()) {
         const std::uint64_t piece = std::min(kDebugPiece, bytes - at);
         out.resize(at + piece);
-        tlm::tlm_generic_payload payload;
-        set_access(payload, tlm::TLM_READ_COMMAND, address + at, out.data() + at, piece);
-        const std::uint64_t got = std::min<std::uint64_t>(memory.debug(payload), piece);
+        const std::uint64_t got = read_debug(memory, address + at, out.data() + at, piece);
         const auto status =
             read_timed(memory, address + at + got, out.data() + at + got, piece - got);
         if (status != tlm::TLM_OK_RESPONSE) {

@@ -124,6 +124,7 @@ void Core::step() {
 }
 
 void Core::enter_trap(std::uint32_t cause, std::uint32_t value) {
+    trapped_without_vector_ = trapped_without_vector_ || !has_vector_;
     mepc_ = pc_;
     mcause_ = cause;
     mtval_ = value;

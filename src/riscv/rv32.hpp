@@ -82,6 +82,8 @@ public:
     /// Reads or writes a register of Csr; false if there is none, or it cannot be written.
     bool read_csr(std::uint32_t csr, std::uint32_t& value) const;
     bool write_csr(std::uint32_t csr, std::uint32_t value);
+    /// A trap was taken before the program has written mtvec.
+    bool trapped_without_vector() const { return trapped_without_vector_; }
     std::uint64_t retired() const { return retired_; } ///< instructions without exceptions
 
 private:
@@ -104,7 +106,7 @@ private:
     std::uint32_t mstatus_ = kMppBits, mie_ = 0, mip_ = 0, mtvec_ = 0, mscratch_ = 0, mepc_ = 0,
                   mcause_ = 0, mtval_ = 0;
     std::uint64_t cycles_ = 0, retired_ = 0;
-    bool waiting_ = false;
+    bool waiting_ = false, has_vector_ = false, trapped_without_vector_ = false;
 };
 
 } // namespace degs::rv32

@@ -69,6 +69,7 @@ bool Core::write_csr(std::uint32_t csr, std::uint32_t value) {
         return true;
     case kMtvec:
         mtvec_ = value & ~2U;
+        has_vector_ = true;
         return true;
     case kMscratch:
         mscratch_ = value;

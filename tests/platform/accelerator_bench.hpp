@@ -38,6 +38,7 @@ public:
     sc_core::sc_time latency{50, sc_core::SC_NS};
     std::uint64_t accesses = 0, urgent = 0;
     std::uint64_t refused = 0;
+    std::uint64_t most_debug_bytes = 1U << 30U; ///< debug accesses end at multiples of this
     std::function<void(std::uint64_t access)> on_access;
     std::function<void(std::uint64_t address, std::uint64_t bytes)> on_range; ///< timed accesses
 
@@ -62,7 +63,7 @@ public:
 private:
     bool move(tlm::tlm_generic_payload& payload) {
         const std::uint64_t end = payload.get_address() + payload.get_data_length();
-        if (end > bytes.size() || end > refused_from) {
+        if (payload.get_address() >= bytes.size() || end > bytes.size() || end > refused_from) {
             payload.set_response_status(tlm::TLM_ADDRESS_ERROR_RESPONSE);
             return false;
         }
@@ -99,6 +100,10 @@ private:
         refused += move(payload) ? 0 : 1;
     }
     unsigned int debug(tlm::tlm_generic_payload& payload) {
+        if (const std::uint64_t left = most_debug_bytes - payload.get_address() % most_debug_bytes;
+            left < payload.get_data_length()) {
+            payload.set_data_length(static_cast<unsigned int>(left));
+        }
         return move(payload) ? payload.get_data_length() : 0;
     }
     Timing timing_;

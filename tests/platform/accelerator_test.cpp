@@ -146,6 +146,44 @@ TEST_F(SmallRunAccelerator, ImmediateAnnotatedAndBlockingMemoriesGiveTheSameByte
     EXPECT_EQ(load, 50U * (2 + 2));
 }
 
+// The scene has 150 records of 44 B and of 48 B, so that pages of 4096 and of 100 B cut both.
+TEST_F(SmallRunAccelerator, AMemoryThatMovesAPartByDebugTransportIsAskedForTheRest) {
+    Platform whole("whole", config, cloud);
+    Platform pages("pages", config, cloud);
+    Platform odd("odd", config, cloud);
+    pages.memory->most_debug_bytes = 4096;
+    odd.memory->most_debug_bytes = 100;
+    const auto script = [&](Host& host) {
+        program(host, cloud, camera);
+        EXPECT_TRUE(host.render());
+        EXPECT_EQ(host.read_pair(Register::LoadCycles), 0U);
+    };
+    pages.host.script = script;
+    odd.host.script = script;
+    run(whole, script);
+    EXPECT_EQ(pages.frame(camera), whole.frame(camera));
+    EXPECT_EQ(odd.frame(camera), whole.frame(camera));
+}
+
+// No memory of this platform is there, so that such a frame meets an error of the bus.
+TEST_F(SmallRunAccelerator, AFrameBufferMayEndWithTheLastAddress) {
+    Platform p("accelerator", config, cloud);
+    run(p, [&](Host& host) {
+        const std::uint64_t bytes = 4 * camera.pixels();
+        program(host, cloud, camera);
+        host.write_pair(Register::FrameBuffer, 0 - bytes);
+        EXPECT_FALSE(host.render());
+        EXPECT_EQ(host.error(), AcceleratorError::BusError);
+        host.write_pair(Register::FrameBuffer, 0 - bytes + 64);
+        EXPECT_FALSE(host.render());
+        EXPECT_EQ(host.error(), AcceleratorError::Overlap);
+        host.write_pair(Register::FrameBuffer, kFrame);
+        host.write_pair(Register::Workspace, ~std::uint64_t{63} - kWorkspaceBytes + 128);
+        EXPECT_FALSE(host.render());
+        EXPECT_EQ(host.error(), AcceleratorError::Overlap);
+    });
+}
+
 TEST_F(SmallRunAccelerator, ASceneThatIsWrittenMeanwhileIsAnError) {
     Platform p("accelerator", config, cloud);
     p.memory->on_access = [&](std::uint64_t access) {

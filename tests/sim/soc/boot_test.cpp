@@ -104,6 +104,44 @@ TEST(FirmwareOfUsers, FirmwareThatSleepsForEverIsAnError) {
         << outcome.out;
 }
 
+/// What firmware of these instructions ends with.
+void expect_end(const std::vector<std::uint32_t>& code, const std::vector<std::string>& more,
+                const std::string& sentence) {
+    const Folder folder;
+    write_bytes(folder / "code.elf", executable(code));
+    std::vector<std::string> words{"--scene",           kBootScene, "--firmware",
+                                   folder / "code.elf", "--out",    folder / "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = degs(boot("degs-16", words));
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.err, "degs: " + sentence + "\n");
+}
+
+// An illegal word, ecall behind a nop, a jump to where no memory is (lui x1, 0x40000; jr x1).
+TEST(FirmwareOfUsers, ATrapWithoutAVectorEndsTheRun) {
+    expect_end(
+        {0x00000000}, {},
+        "The firmware has stopped: an illegal instruction (mcause 0x2) at 0x00000000, and no "
+        "trap vector is set.");
+    expect_end(
+        {0x00000013, 0x00000073}, {},
+        "The firmware has stopped: a call of the environment (mcause 0xb) at 0x00000004, and "
+        "no trap vector is set.");
+    expect_end({0x400000B7, 0x00008067}, {},
+               "The firmware has stopped: no memory to execute (mcause 0x1) at 0x40000000, and no "
+               "trap vector is set.");
+}
+
+// A jump to itself; csrw mtvec, x0 and an illegal word, whose handler is the program.
+TEST(FirmwareOfUsers, FirmwareThatNeverEndsMeetsTheLimit) {
+    for (const std::vector<std::uint32_t>& code :
+         {std::vector<std::uint32_t>{0x0000006F}, std::vector<std::uint32_t>{0x30501073, 0}}) {
+        expect_end(code, {"--limit-ms", "0.02"},
+                   "The firmware has not ended after 0.0200 ms of simulated time, the limit; "
+                   "--limit-ms sets another one.");
+    }
+}
+
 TEST(HostileFirmware, IsRefusedInASentence) {
     const Folder folder;
     const auto refused = [&](const std::string& name, const std::vector<unsigned char>& bytes,
@@ -138,6 +176,8 @@ TEST(HostileFirmware, OptionsOfTheOtherPlatformAreRefused) {
                    "the accelerator alone.\n");
     expect_mistake(degs({"soc", config("degs-16"), "--scene", kBootScene, "--firmware", "x.elf"}),
                    "degs: --firmware needs --cpu riscv.\n");
+    expect_mistake(degs({"soc", config("degs-16"), "--scene", kBootScene, "--limit-ms", "1"}),
+                   "degs: --limit-ms needs --cpu riscv.\n");
 }
 
 } // namespace

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs soc, as a user calls it.
+#include <array>
+#include <fstream>
+
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -29,6 +32,58 @@ TEST(SmallRunSoc, LatencyRisesWithTheLoadAndPixelsStay) {
                 row_gb_per_s);
     EXPECT_GT(written["psnr_db"], 45.0); // 8 bits alone: 20 log10(255 sqrt 12) = 58.9 dB
     EXPECT_NE(read_file(folder / "out/soc.svg").find("<svg"), std::string::npos);
+}
+
+const std::vector<std::string> kFewPixels{
+    "--scene", "synthetic:object,gaussians=20", "--width", "32", "--load", "0", "--refresh", "0"};
+
+std::vector<std::string> soc(const std::string& design, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"soc", design};
+    words.insert(words.end(), kFewPixels.begin(), kFewPixels.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+// A memory of its own, one view, a scene of floats: what a platform has no use for is refused.
+TEST(SmallRunSoc, KeysThatAPlatformCannotFollowAreRefused) {
+    const std::vector<std::array<std::string, 3>> keys{
+        {"degs-16", "memory.bandwidth_gb_per_s=0.1", "a memory of its own, --memory"},
+        {"degs-16", "memory.latency_ns=5000", "a memory of its own, --memory"},
+        {"degs-16", "memory.lpddr5.timing.rcd=20", "a memory of its own, --memory"},
+        {"degs-16", "projection.shared_by_views=nothing", "one view at a time"},
+        {"gcc-16", "grouping.shared_by_views=nothing", "one view at a time"},
+        {"degs-16", "frames_in_flight=1", "one view at a time"},
+        {"degs-16", "traffic.geometry_bytes=64", "as floats"},
+        {"degs-16", "traffic.pixel_bytes=8", "the register FORMAT"},
+        {"degs-16", "cost.logic.fo4_per_ns=50", "nothing is billed"}};
+    for (const auto& [design, assignment, reason] : keys) {
+        const Folder folder;
+        SCOPED_TRACE(assignment);
+        const std::string key = assignment.substr(0, assignment.find('='));
+        const Outcome outcome = degs(soc(config(design), {"--set", assignment}));
+        expect_mistake(outcome, "degs: --set " + assignment + ": key '" + key +
+                                    "' has no effect on a platform, because ");
+        expect_mistake(outcome, reason);
+    }
+}
+
+TEST(SmallRunSoc, KeysOfAFileThatAPlatformCannotFollowAreWarnedOf) {
+    const Folder folder;
+    std::ofstream(folder / "far.yaml") << "include: " << config("degs-16")
+                                       << "\nmemory: {latency_ns: 5000, layout: morton}\n"
+                                          "frames_in_flight: 3\n";
+    const Outcome far = degs(soc(folder / "far.yaml", {"--out", folder / "far"}));
+    EXPECT_EQ(far.code, 0) << far.err;
+    EXPECT_NE(far.err.find("far.yaml:2: key 'memory.latency_ns' has no effect on a platform"),
+              std::string::npos)
+        << far.err;
+    EXPECT_NE(far.err.find("far.yaml:3: key 'frames_in_flight' has no effect on a platform"),
+              std::string::npos)
+        << far.err;
+    EXPECT_EQ(far.err.find("layout"), std::string::npos) << far.err; // which it follows
+    const Outcome shipped = degs(soc(config("degs-16"), {"--out", folder / "shipped"}));
+    expect_success(shipped);
+    EXPECT_EQ(shipped.err.find("no effect"), std::string::npos) << shipped.err;
 }
 
 TEST(SmallRunSoc, LoadsGoUpToThreeQuartersOfThePeak) {
