@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/number_json.hpp"
 #include "base/ratio.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
@@ -14,8 +15,8 @@ namespace degs::sim {
 namespace {
 
 std::string error_words(std::optional<double> error) {
-    if (!error) {
-        return "";
+    if (!error || std::isnan(*error)) {
+        return error ? "nan" : ""; // without the sign that printf gives some of them
     }
     char text[32];
     std::snprintf(text, sizeof text, "%.2e", *error);
@@ -28,6 +29,9 @@ std::string decibel_words(const AccuracyRow& row) {
 
 /// Six decimals, because the interesting values lie close to 1.
 std::string ssim_words(double ssim) {
+    if (std::isnan(ssim)) {
+        return "nan";
+    }
     char text[32];
     std::snprintf(text, sizeof text, "%.6f", ssim);
     return text;
@@ -54,8 +58,7 @@ std::string flip_words(const AccuracyRow& row) {
 }
 
 nlohmann::ordered_json or_null(std::optional<double> value) {
-    return value && std::isfinite(*value) ? nlohmann::ordered_json(*value)
-                                          : nlohmann::ordered_json(nullptr);
+    return value ? number_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
 nlohmann::ordered_json or_null(const std::string& words) {
@@ -112,8 +115,8 @@ nlohmann::ordered_json accuracy_json(const std::vector<AccuracyRow>& rows) {
         json["camera"] = row.camera ? nlohmann::ordered_json(*row.camera) : nullptr;
         json["resolution"] = row.resolution;
         json["numbers"] = row.numbers;
-        json["alpha_error_mean"] = row.alpha_error_mean;
-        json["alpha_error_max"] = row.alpha_error_max;
+        json["alpha_error_mean"] = number_json(row.alpha_error_mean);
+        json["alpha_error_max"] = number_json(row.alpha_error_max);
         json["psnr_db"] = or_null(row.psnr_db);
         json["ssim"] = or_null(row.ssim);
         json["flip"] = or_null(row.flip);

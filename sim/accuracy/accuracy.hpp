@@ -18,7 +18,7 @@
 
 namespace degs::sim {
 
-/// The pixel with the largest error of a channel, and its cause as blame_pixel finds it.
+/// The pixel with the largest error, and its cause as blame_pixel finds it.
 struct WorstPixel {
     int x = 0, y = 0;
     double error = 0;           ///< of the pixel's replay
@@ -39,7 +39,7 @@ struct AccuracyRow {
     double alpha_error_mean = 0; ///< absolute, against fp64, over all pixels
     double alpha_error_max = 0;  ///< over pixels that both draw
     std::optional<double> psnr_db, ssim, flip, max_abs_error; ///< of images
-    std::uint64_t nonfinite = 0;                              ///< values that are NaN
+    std::uint64_t nonfinite = 0; ///< values that are infinite or not a number
 
     // Images only.
     bool identical = false;      ///< to the reference; psnr_db is empty then

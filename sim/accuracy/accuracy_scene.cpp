@@ -105,7 +105,7 @@ AccuracyRow compare(Frame& frame, const Image& image, const NumberSet& set, bool
     row.identical = difference.identical();
     row.ssim = compare_images(frame.reference, image).ssim;
     row.flip = flip_difference(frame.reference, image);
-    if (std::isfinite(difference.psnr_db()) && row.nonfinite == 0) {
+    if (!row.identical && !std::isnan(difference.psnr_db())) {
         row.psnr_db = difference.psnr_db();
     }
     if (!row.identical) {

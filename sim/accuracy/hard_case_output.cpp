@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/number_json.hpp"
 #include "sim/accuracy/hard_case_run.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
@@ -27,7 +28,7 @@ std::vector<std::string> distinct(const std::vector<HardResult>& results,
 }
 
 std::string decibels(const HardMeasure& measure) {
-    if (measure.max_abs_error == 0 && measure.nonfinite == 0) {
+    if (measure.max_abs_error == 0) {
         return "=";
     }
     return std::isfinite(measure.psnr_db) ? std::to_string(std::lround(measure.psnr_db)) : "?";
@@ -67,11 +68,11 @@ nlohmann::ordered_json measure_json(const HardMeasure& measure) {
     json["numbers"] = measure.set;
     json["resolution"] = measure.resolution;
     json["holds"] = measure.problems.empty();
-    const bool finite = std::isfinite(measure.psnr_db);
-    json["psnr_db"] = finite ? nlohmann::ordered_json(measure.psnr_db) : nullptr;
-    json["identical"] = measure.max_abs_error == 0 && measure.nonfinite == 0;
-    json["alpha_error_max"] = measure.alpha_error_max;
-    json["max_abs_error"] = measure.max_abs_error;
+    const bool identical = measure.max_abs_error == 0;
+    json["psnr_db"] = identical ? nlohmann::ordered_json() : number_json(measure.psnr_db);
+    json["identical"] = identical;
+    json["alpha_error_max"] = number_json(measure.alpha_error_max);
+    json["max_abs_error"] = number_json(measure.max_abs_error);
     json["pixels"] = measure.pixels;
     json["nonfinite"] = measure.nonfinite;
     json["recounted_pixels"] = measure.recounted;

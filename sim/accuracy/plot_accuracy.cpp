@@ -49,7 +49,7 @@ Picture picture_of(const std::vector<AccuracyRow>& rows) {
         }
         picture.least_height = std::min(picture.least_height, height_of(row));
         picture.most_height = std::max(picture.most_height, height_of(row));
-        if (row.psnr_db) {
+        if (row.psnr_db && std::isfinite(*row.psnr_db)) {
             panels.back().lines[row.numbers].emplace_back(height_of(row), *row.psnr_db);
             picture.low = std::min(picture.low, std::floor(*row.psnr_db / 20) * 20);
             picture.high = std::max(picture.high, std::ceil(*row.psnr_db / 20) * 20);

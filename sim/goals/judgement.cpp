@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace degs::sim {
 namespace {
@@ -88,7 +89,8 @@ void check_limits(const std::vector<Limit>& limits,
     }
 }
 
-/// Marks the front of those that have all goals and are within all limits.
+/// Marks the front of those that have all goals and are within all limits, with all that are equal
+/// to one of it, because nobody beats them either.
 void mark_front(const std::vector<Aim>& wanted, std::vector<DesignVerdict>& verdicts) {
     std::vector<Goals> costs;
     std::vector<std::size_t> configs;
@@ -98,8 +100,12 @@ void mark_front(const std::vector<Aim>& wanted, std::vector<DesignVerdict>& verd
             configs.push_back(c);
         }
     }
+    std::set<Goals> front;
     for (const std::size_t position : pareto_front(costs)) {
-        verdicts[configs[position]].on_front = true;
+        front.insert(costs[position]);
+    }
+    for (std::size_t position = 0; position < costs.size(); ++position) {
+        verdicts[configs[position]].on_front = front.count(costs[position]) != 0;
     }
 }
 

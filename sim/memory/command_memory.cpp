@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/config_source.hpp"
+#include "config/input_files.hpp"
 #include "degs/error.hpp"
 #include "sim/memory/memory_report.hpp"
 #include "sim/memory/trace_replay.hpp"
@@ -113,6 +114,9 @@ void run(const MemoryOptions& options) {
     facts.memory = load(options);
     facts.shape = options.shape;
     const dram::Config& config = facts.memory;
+    if (!options.trace.empty()) {
+        remember_input(options.trace); // the folder refuses to replace it
+    }
     const OutputFolder out(options.out, {"memory.json", "latency.svg"});
     dram::Lpddr5 memory("memory", config, Timebase(), config.channels);
     if (!options.trace.empty()) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/visible_text.hpp"
+#include "config/input_files.hpp"
 #include "degs/error.hpp"
 #include "sim/motion/motion_path.hpp"
 #include "sim/motion/motion_session.hpp"
@@ -88,6 +89,9 @@ void run(const MotionOptions& options) {
     request.jobs = options.jobs;
     request.path.group = options.motion.eyes;
     check_estimates(request);
+    if (!options.motion.poses.empty()) {
+        remember_input(options.motion.poses); // the folder refuses to replace it
+    }
     const OutputFolder out(options.out, motion_files());
     MotionWords words;
     {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/number_json.hpp"
 #include "base/ratio.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/report/view_words.hpp"
@@ -25,8 +26,8 @@ ordered_json box_json(const PixelBox& box) {
 }
 
 void put_part(const PartError* part, ordered_json& json) {
-    json["psnr_db"] = part != nullptr ? decibels_json(part->psnr_db) : ordered_json();
-    json["flip"] = part != nullptr ? ordered_json(part->flip) : ordered_json();
+    json["psnr_db"] = part != nullptr ? number_json(part->psnr_db) : ordered_json();
+    json["flip"] = part != nullptr ? number_json(part->flip) : ordered_json();
 }
 
 /// What view `number` of the frame asks for.
@@ -95,7 +96,7 @@ std::string foveation_words(const RunResult& result) {
     for (std::size_t level = 0; level < image.parts.size(); ++level) {
         const PartError& part = image.parts[level];
         words += std::string(" · ") + name_of(image.view.levels[level]) + " " +
-                 (std::isinf(part.psnr_db)
+                 (std::isinf(part.psnr_db) && part.psnr_db > 0
                       ? "identical"
                       : three_digits(part.psnr_db) + " dB, FLIP " + three_digits(part.flip));
     }

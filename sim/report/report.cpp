@@ -93,8 +93,10 @@ void describe_image(const RunResult& result, StatsVisitor& v) {
            "Peak 1, all channels, unclamped; \"inf\" if the images are identical.");
     v.real("ssim", of_error(&ImageError::ssim), "",
            "Gaussian window of 11 x 11 pixels, sigma 1.5, mean over channels.");
-    v.real("max_abs_error", of_error(&ImageError::max_abs_error), "",
-           "Largest difference of a channel.");
+    v.real(
+        "max_abs_error", of_error(&ImageError::max_abs_error), "",
+        "Largest difference of a channel or of the transmittance; \"inf\" if one is infinite, null "
+        "if one is not a number.");
     v.statistic({"crc32", "",
                  "CRC-32 of the pixels of image.png, red, green and blue from the top left, in "
                  "hexadecimal."},

@@ -27,6 +27,9 @@ std::string count_words(std::uint64_t count, const char* one, const char* many) 
 
 /// Enough digits to show its distance from 1: 0.99999873 -> "0.9999987".
 std::string similarity(double ssim) {
+    if (std::isnan(ssim)) {
+        return "nan"; // without the sign that printf gives some of them
+    }
     const double gap = std::abs(1.0 - ssim);
     const int decimals = gap > 0 ? static_cast<int>(2 - std::floor(std::log10(gap))) : 3;
     char text[32];
@@ -194,7 +197,7 @@ std::string image_line(const RunResult& result, const std::string& image_path) {
         return "not compared (--no-reference)" + std::string(kDot) + image_path;
     }
     const ImageError& error = *result.error;
-    const std::string psnr = std::isinf(error.psnr_db) && error.psnr_db > 0
+    const std::string psnr = error.max_abs_error == 0
                                  ? "identical to"
                                  : three_digits(error.psnr_db) + " dB, SSIM " +
                                        similarity(error.ssim) + ", largest error " +

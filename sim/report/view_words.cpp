@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/number_json.hpp"
 #include "base/ratio.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/report/report.hpp"
@@ -50,18 +51,14 @@ ordered_json view_json(const RunResult& result, std::size_t v) {
     json["tile_pairs"] = view.workload.tile_pairs;
     json["preprocessing_cycles"] = dates.preprocessed;
     json["finished_cycles"] = dates.finished;
-    json["psnr_db"] = view.error ? decibels_json(view.error->psnr_db) : ordered_json();
-    json["ssim"] = view.error ? ordered_json(view.error->ssim) : ordered_json();
-    json["max_abs_error"] = view.error ? ordered_json(view.error->max_abs_error) : ordered_json();
+    json["psnr_db"] = view.error ? number_json(view.error->psnr_db) : ordered_json();
+    json["ssim"] = view.error ? number_json(view.error->ssim) : ordered_json();
+    json["max_abs_error"] = view.error ? number_json(view.error->max_abs_error) : ordered_json();
     json["crc32"] = digits;
     return json;
 }
 
 } // namespace
-
-ordered_json decibels_json(double value) {
-    return std::isinf(value) ? ordered_json("inf") : ordered_json(value);
-}
 
 ordered_json views_json(const RunResult& result) {
     const AcceleratorResult& run = result.accelerator;
@@ -87,9 +84,9 @@ std::string views_words(const RunResult& result) {
                         scaled(view.cycles) + " cycles, " + scaled_bytes(bytes) + ", " +
                         three_digits(view.energy_nj * kMjPerNj) + " mJ";
     for (std::size_t v = 1; v < images_of(result) && error_of(result, v); ++v) {
-        const double psnr = error_of(result, v)->psnr_db;
+        const ImageError& error = *error_of(result, v);
         words += " · image-" + std::to_string(v) + " " +
-                 (std::isinf(psnr) ? "identical" : three_digits(psnr) + " dB");
+                 (error.max_abs_error == 0 ? "identical" : three_digits(error.psnr_db) + " dB");
     }
     return words;
 }

@@ -9,8 +9,6 @@
 
 namespace degs::sim {
 
-/// A PSNR: "inf" of identical images.
-nlohmann::ordered_json decibels_json(double value);
 /// The section `views` of a report whose frames have several.
 nlohmann::ordered_json views_json(const RunResult& result);
 /// A line that says what views share, and what each of them takes.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/json_text.hpp"
+#include "base/number_json.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -12,13 +13,10 @@ namespace degs::sim {
 using nlohmann::ordered_json;
 
 ordered_json number_json(const std::optional<double>& value) {
-    if (value && std::isinf(*value)) {
-        return "inf";
-    }
     if (value && *value == std::floor(*value) && std::abs(*value) < 9e15) {
         return static_cast<std::int64_t>(*value);
     }
-    return value_or_null(value);
+    return value ? degs::number_json(*value) : ordered_json();
 }
 
 namespace {

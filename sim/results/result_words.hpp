@@ -16,7 +16,8 @@ nlohmann::ordered_json value_or_null(const std::optional<Value>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
 }
 
-/// JSON has no infinity: it is "inf". Counts are written as such, what does not exist is null.
+/// As degs::number_json(), which is of infinity and of what is not a number. Counts are written as
+/// such, what does not exist is null.
 nlohmann::ordered_json number_json(const std::optional<double>& value);
 
 /// Puts a measure into a run: its name with '/' for '.' is the place.

@@ -43,8 +43,10 @@ void SharedView::share_colours() {
 // Most designs of a study draw the same image, whose error is found once.
 ImageError SharedView::error_of(const Image& image, std::size_t view) const {
     constexpr int kMostImages = 8; // of different numbers
-    const std::string_view colours(reinterpret_cast<const char*>(image.rgb.data()),
-                                   image.rgb.size() * sizeof(float));
+    std::string pixels(reinterpret_cast<const char*>(image.rgb.data()),
+                       image.rgb.size() * sizeof(float));
+    pixels.append(reinterpret_cast<const char*>(image.transmittance.data()),
+                  image.transmittance.size() * sizeof(float));
     for (int number = 0; kept != nullptr && number < kMostImages; ++number) {
         const std::string name =
             "image " + std::to_string(number) + " of view " + std::to_string(view);
@@ -52,10 +54,10 @@ ImageError SharedView::error_of(const Image& image, std::size_t view) const {
         if (known.data() == nullptr) {
             const ImageError error = compare_images(references[view].image, image);
             std::string bytes(reinterpret_cast<const char*>(&error), sizeof error);
-            kept->put(name, bytes.append(colours));
+            kept->put(name, bytes.append(pixels));
             return error;
         }
-        if (known.substr(sizeof(ImageError)) == colours) {
+        if (known.substr(sizeof(ImageError)) == pixels) {
             ImageError error;
             std::memcpy(&error, known.data(), sizeof error);
             return error;

@@ -11,32 +11,20 @@ namespace degs {
 void ImageDifference::add(const Image& reference, const Image& test, int x, int y) {
     pixels_ += reference.pixels();
     for (std::size_t i = 0; i < reference.pixels(); ++i) {
-        double error = 0;
-        std::uint64_t nonfinite = 0;
-        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-            const double wanted = reference.rgb[c];
-            const double distance = std::abs(wanted - test.rgb[c]);
-            if (std::isfinite(distance)) {
-                squares_ += distance * distance;
-                error = std::max(error, distance);
-            } else {
-                ++nonfinite;
-            }
-        }
-        const double alpha =
-            std::abs(static_cast<double>(reference.transmittance[i]) - test.transmittance[i]);
-        if (std::isfinite(alpha)) {
-            alpha_sum_ += alpha;
-            alpha_max_ = std::max(alpha_max_, alpha);
-        } else {
-            ++nonfinite;
-        }
-        if ((nonfinite > 0 && nonfinite_ == 0) || (error > worst_ && nonfinite_ == 0)) {
+        const double worst = errors_.worst();
+        const double error = errors_.add(reference, test, i);
+        if (PixelErrors::is_worse(error, worst)) {
             worst_x_ = x + static_cast<int>(i) % reference.width;
             worst_y_ = y + static_cast<int>(i) / reference.width;
         }
-        worst_ = std::max(worst_, error);
-        nonfinite_ += nonfinite;
+        const double alpha =
+            std::abs(static_cast<double>(reference.transmittance[i]) - test.transmittance[i]);
+        alpha_sum_ += alpha;
+        alpha_max_ = PixelErrors::is_worse(alpha, alpha_max_) ? alpha : alpha_max_;
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+            nonfinite_ += std::isfinite(test.rgb[c]) ? 0 : 1;
+        }
+        nonfinite_ += std::isfinite(test.transmittance[i]) ? 0 : 1;
         recounted_ += reference.fragments[i] != test.fragments[i] ? 1 : 0;
     }
 }
@@ -46,7 +34,7 @@ double ImageDifference::alpha_error_mean() const {
 }
 
 double ImageDifference::psnr_db() const {
-    return -10 * std::log10(mean_of(squares_, 3 * pixels_));
+    return errors_.psnr_db(pixels_);
 }
 
 void subtract(const Image& reference, Image& test) {

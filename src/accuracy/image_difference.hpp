@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "splat/images/image.hpp"
+#include "splat/images/image_metrics.hpp"
 
 namespace degs {
 
@@ -19,22 +19,22 @@ public:
     double alpha_error_max() const { return alpha_max_; }
     /// PSNR of the unclamped colours with peak 1, dB; infinite if they are equal.
     double psnr_db() const;
-    double max_abs_error() const { return worst_; } ///< largest difference of a channel
-    /// Channels and transmittances of the test image that are not finite. They enter no other
-    /// result.
+    /// Largest difference of a channel or a transmittance, as in ImageError.
+    double max_abs_error() const { return errors_.worst(); }
+    /// Channels and transmittances of the test image that are infinite or not a number.
     std::uint64_t nonfinite() const { return nonfinite_; }
     /// Pixels that another number of splats updated than in the reference.
     std::uint64_t recounted() const { return recounted_; }
-    bool identical() const { return worst_ == 0 && alpha_max_ == 0 && nonfinite_ == 0; }
+    bool identical() const { return errors_.worst() == 0; }
 
-    /// The pixel with the largest error, in the frame, or the first pixel that is not finite if any
-    /// is not.
+    /// The first pixel with the largest error, in the frame.
     int worst_x() const { return worst_x_; }
     int worst_y() const { return worst_y_; }
 
 private:
     std::uint64_t pixels_ = 0, nonfinite_ = 0, recounted_ = 0;
-    double alpha_sum_ = 0, alpha_max_ = 0, squares_ = 0, worst_ = 0;
+    PixelErrors errors_;
+    double alpha_sum_ = 0, alpha_max_ = 0;
     int worst_x_ = 0, worst_y_ = 0;
 };
 

@@ -183,8 +183,9 @@ std::string flipped_decision(const PixelReplay& reference, const PixelReplay& te
 
 double pixel_distance(const PixelReplay& a, const PixelReplay& b) {
     double most = 0;
-    for (int c = 0; c < 3; ++c) {
-        const double each = std::abs(a.rgb[c] - b.rgb[c]);
+    for (const double each :
+         {std::abs(a.rgb[0] - b.rgb[0]), std::abs(a.rgb[1] - b.rgb[1]),
+          std::abs(a.rgb[2] - b.rgb[2]), std::abs(a.transmittance - b.transmittance)}) {
         most = std::isfinite(each) ? std::max(most, each) : INFINITY;
     }
     return most;

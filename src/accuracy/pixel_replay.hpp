@@ -27,12 +27,12 @@ PixelReplay replay_reference(const FrameWorkload& workload, int x, int y);
 PixelReplay replay_row(const FrameWorkload& workload, int x, int y, const QuantizedRow& row,
                        StopRule stop);
 
-/// Largest channel difference; infinite for NaN.
+/// Largest difference of a channel or of the transmittance; infinite for NaN.
 double pixel_distance(const PixelReplay& a, const PixelReplay& b);
 
 /// The cause of the error of a pixel.
 struct PixelBlame {
-    double error = 0;      ///< largest channel difference of the replay, from the reference
+    double error = 0;      ///< of the replay, see pixel_distance
     std::uint32_t id = 0;  ///< Gaussian, index in the cloud
     std::string operation; ///< "mean", "m", "q", "exp", ..., "span ends", "projection"; empty
                            ///< without an error

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/number_json.hpp"
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
 
@@ -36,14 +37,6 @@ private:
     bool all_;
     std::vector<std::string> open_{""};
 };
-
-/// JSON has no infinity: identical images have a PSNR of "inf". What is not a number is null.
-ordered_json number_json(double value) {
-    if (std::isinf(value)) {
-        return value > 0 ? "inf" : "-inf";
-    }
-    return std::isnan(value) ? ordered_json() : ordered_json(value);
-}
 
 struct ValueJson {
     ordered_json operator()(std::monostate) const { return {}; }

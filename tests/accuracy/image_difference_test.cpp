@@ -27,6 +27,7 @@ TEST(ImageDifference, AgreesWithTheMetrics) {
     const Image a = pattern(20, 13, 0);
     Image b = pattern(20, 13, 0.01F);
     b.fragments[7] = 0;
+    b.rgb[20] += 0.125F;
     ImageDifference difference;
     difference.add(a, b);
     const ImageError metrics = compare_images(a, b);
@@ -53,7 +54,9 @@ TEST(ImageDifference, PartsAreAsGoodAsTheWhole) {
     EXPECT_NEAR(difference.psnr_db(), -10 * std::log10(0.25 / (2 * 36 * 3)), 1e-5);
 }
 
-TEST(ImageDifference, NumbersThatAreNoneAreCountedAndNotAdded) {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(ImageDifference, NumbersThatAreNoneAreCountedAndWorst) {
     const Image a = pattern(6, 6, 0);
     Image b = a;
     b.rgb[0] += 0.25F;
@@ -63,10 +66,45 @@ TEST(ImageDifference, NumbersThatAreNoneAreCountedAndNotAdded) {
     ImageDifference difference;
     difference.add(a, b);
     EXPECT_EQ(difference.nonfinite(), 2U);
-    EXPECT_FLOAT_EQ(static_cast<float>(difference.max_abs_error()), 0.5F);
-    EXPECT_EQ(difference.alpha_error_max(), 0);
+    EXPECT_TRUE(std::isnan(difference.max_abs_error()));
+    EXPECT_TRUE(std::isnan(difference.psnr_db()));
+    EXPECT_EQ(difference.alpha_error_max(), kInfinity);
     EXPECT_EQ(difference.worst_x(), 4); // it is worse than any error
     EXPECT_EQ(difference.worst_y(), 3);
+    EXPECT_FALSE(difference.identical());
+}
+
+TEST(ImageDifference, AnInfiniteErrorIsTheLargest) {
+    const Image a = pattern(6, 6, 0);
+    Image b = a;
+    b.rgb[3 * a.at(2, 1)] += 275;
+    b.rgb[3 * a.at(3, 4) + 2] = -std::numeric_limits<float>::infinity();
+    b.rgb[3 * a.at(5, 5)] += 300;
+    ImageDifference difference;
+    difference.add(a, b);
+    EXPECT_EQ(difference.max_abs_error(), kInfinity);
+    EXPECT_EQ(difference.psnr_db(), -kInfinity);
+    EXPECT_EQ(difference.nonfinite(), 1U);
+    EXPECT_EQ(difference.worst_x(), 3);
+    EXPECT_EQ(difference.worst_y(), 4);
+    const ImageError metrics = compare_images(a, b);
+    EXPECT_EQ(metrics.max_abs_error, kInfinity);
+    EXPECT_EQ(metrics.psnr_db, -kInfinity);
+}
+
+/// Colours that are off by 0.0015 at most, and a transmittance that is by 0.005.
+TEST(ImageDifference, TheLargestErrorMayBeOfTheTransmittance) {
+    const Image a = pattern(6, 6, 0);
+    Image b = a;
+    b.rgb[7] += 0.0015F;
+    b.transmittance[a.at(1, 4)] -= 0.005F;
+    ImageDifference difference;
+    difference.add(a, b);
+    EXPECT_NEAR(difference.max_abs_error(), 0.005, 1e-6);
+    EXPECT_NEAR(compare_images(a, b).max_abs_error, 0.005, 1e-6);
+    EXPECT_EQ(difference.worst_x(), 1);
+    EXPECT_EQ(difference.worst_y(), 4);
+    EXPECT_NEAR(difference.psnr_db(), -10 * std::log10(0.0015 * 0.0015 / (36 * 3)), 1e-2);
 }
 
 TEST(ImageDifference, Subtracts) {

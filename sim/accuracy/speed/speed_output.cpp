@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/number_json.hpp"
 #include "sim/accuracy/speed/speed.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
@@ -107,7 +108,7 @@ std::string held_words(const SpeedGroup& group) {
 }
 
 ordered_json number_or_null(std::optional<double> value) {
-    return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
+    return value ? number_json(*value) : ordered_json(nullptr);
 }
 
 ordered_json row_json(const SpeedRow& row) {

@@ -58,7 +58,7 @@ void compare_pictures(const Image& truth, const Image& image, SpeedOutcome& outc
     ImageDifference difference;
     difference.add(truth, image);
     outcome.identical = difference.identical();
-    if (!outcome.identical && difference.nonfinite() == 0) {
+    if (!outcome.identical && !std::isnan(difference.psnr_db())) {
         outcome.psnr_db = difference.psnr_db();
     }
 }

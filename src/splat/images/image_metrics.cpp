@@ -169,18 +169,34 @@ void check_comparable(const Image& reference, const Image& test) {
     }
 }
 
+bool PixelErrors::is_worse(double error, double than) {
+    return error > than || (std::isnan(error) && !std::isnan(than));
+}
+
+double PixelErrors::add(const Image& reference, const Image& test, std::size_t pixel) {
+    double largest = std::abs(double{reference.transmittance[pixel]} - test.transmittance[pixel]);
+    for (std::size_t c = kChannels * pixel; c < kChannels * (pixel + 1); ++c) {
+        const double error = std::abs(double{reference.rgb[c]} - test.rgb[c]);
+        squares_ += error * error;
+        largest = is_worse(error, largest) ? error : largest;
+    }
+    worst_ = is_worse(largest, worst_) ? largest : worst_;
+    return largest;
+}
+
+double PixelErrors::psnr_db(std::size_t pixels) const {
+    return -10 * std::log10(mean_of(squares_, kChannels * pixels));
+}
+
 ImageError compare_images(const Image& reference, const Image& test) {
     check_comparable(reference, test);
-    double squares = 0, worst = 0;
-    for (std::size_t i = 0; i < reference.rgb.size(); ++i) {
-        const double wanted = reference.rgb[i];
-        const double error = std::abs(wanted - test.rgb[i]);
-        squares += error * error;
-        worst = error > worst || std::isnan(error) ? error : worst; // NaN sticks
+    PixelErrors errors;
+    for (std::size_t pixel = 0; pixel < reference.pixels(); ++pixel) {
+        errors.add(reference, test, pixel);
     }
     ImageError result;
-    result.psnr_db = -10 * std::log10(mean_of(squares, reference.rgb.size()));
-    result.max_abs_error = worst;
+    result.psnr_db = errors.psnr_db(reference.pixels());
+    result.max_abs_error = errors.worst();
     result.ssim = mean_similarity(reference, test);
     return result;
 }

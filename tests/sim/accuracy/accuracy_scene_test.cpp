@@ -78,14 +78,16 @@ void expect_difference_of_run_and_render(const std::string& numbers,
     }
     for (std::size_t i = 0; i < run.pixels(); ++i) {
         ASSERT_EQ(run.transmittance[i] - reference.transmittance[i], error.transmittance[i]) << i;
+        worst = std::max(worst, std::abs(error.transmittance[i]));
     }
     EXPECT_NEAR(rows[0]["max_abs_error"], worst, 1e-6);
     EXPECT_NEAR(rows[0]["flip"], flip_difference(reference, run), 1e-12);
     EXPECT_GT(rows[0]["flip"], 0);
     const json& pixel = rows[0]["worst_pixel"];
     const std::size_t at = run.at(pixel["x"], pixel["y"]);
-    EXPECT_EQ(worst, std::max({std::abs(error.rgb[3 * at]), std::abs(error.rgb[3 * at + 1]),
-                               std::abs(error.rgb[3 * at + 2])}));
+    EXPECT_EQ(worst,
+              std::max({std::abs(error.rgb[3 * at]), std::abs(error.rgb[3 * at + 1]),
+                        std::abs(error.rgb[3 * at + 2]), std::abs(error.transmittance[at])}));
     EXPECT_NEAR(pixel["error"], worst, 0.1 * worst); // the pixel's replay
 }
 
@@ -157,6 +159,37 @@ TEST(AccuracyScenes, ErrorImagesOfAnEarlierRunAreReplaced) {
     for (const std::string& name : foreign) {
         EXPECT_EQ(read_file(folder / ("out/" + name)), name);
     }
+}
+
+/// FP16 has no colour like these: pixels of infinite colour, and some that are not a number.
+TEST(AccuracyScenes, SayOfInfinitePixelsWhatRunSays) {
+    const Folder folder;
+    Splat hot, behind;
+    hot.colour = behind.colour = {3e5F, 3e5F, 3e5F};
+    behind.mean = {0.02F, 0, 0.1F};
+    write_ply(folder / "hot.ply", {hot, behind});
+    write_camera(folder / "cameras.json", {0, 0, -4});
+    const Outcome measured = degs({"accuracy", "--scene", folder / "hot.ply", "--numbers", "fp16",
+                                   "--out", folder / "a", "--no-error-images"});
+    EXPECT_EQ(measured.code, 0) << measured.err;
+    EXPECT_EQ(measured.out.find("-nan"), std::string::npos) << measured.out;
+    const json row = json::parse(read_file(folder / "a/accuracy.json")).at(0);
+    const Outcome ran = degs({"run", config("degs-16"), "--set", "pipeline.numbers=fp16", "--scene",
+                              folder / "hot.ply", "--out", folder / "r"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.out.find("-nan"), std::string::npos) << ran.out;
+    const json image = report_in(folder / "r")["image"];
+    EXPECT_EQ(row["max_abs_error"], "inf");
+    EXPECT_EQ(row["psnr_db"], "-inf");
+    EXPECT_TRUE(row["ssim"].is_null());
+    for (const char* key : {"max_abs_error", "psnr_db", "ssim"}) {
+        EXPECT_EQ(image[key], row[key]) << key;
+    }
+    int infinite = 0;
+    for (const float value : read_exr(folder / "r/image.exr").rgb) {
+        infinite += std::isfinite(value) ? 0 : 1;
+    }
+    EXPECT_EQ(row["nonfinite"], infinite);
 }
 
 TEST(AccuracyScenes, SpanEndsCanBeChosen) {

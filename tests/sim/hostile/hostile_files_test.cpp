@@ -79,6 +79,28 @@ TEST(HostileEnd, AFolderHoldsOneRunOrNoReport) {
     }
 }
 
+/// Named as a result is, or a link to one: the command ends before it replaces what it reads.
+TEST(HostileEnd, InputsAreNoResults) {
+    const Folder folder;
+    const std::string poses = "time_s,x,y,z,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.1,0,0,0,1,0,0,0\n";
+    std::ofstream(folder / "motion.csv") << poses;
+    std::ofstream(folder / "latency.svg") << "LD 0x40\nST 0x80\n";
+    fs::create_hard_link(folder / "motion.csv", folder / "link.csv");
+    for (const char* const name : {"motion.csv", "link.csv"}) {
+        const Outcome motion =
+            degs({"motion", config("degs-16"), "--scene", "synthetic:single", "--width", "32",
+                  "--fidelity", "analytic", "--poses", folder / name, "--out", folder / ""});
+        EXPECT_EQ(motion.code, 2) << motion.err;
+        EXPECT_NE(motion.err.find("which this command reads"), std::string::npos) << motion.err;
+        EXPECT_EQ(read_file(folder / "motion.csv"), poses);
+    }
+    const Outcome memory = degs({"memory", config("memory/lpddr5-6400x128"), "--trace",
+                                 folder / "latency.svg", "--out", folder / ""});
+    EXPECT_EQ(memory.code, 2) << memory.err;
+    EXPECT_NE(memory.err.find("which this command reads"), std::string::npos) << memory.err;
+    EXPECT_EQ(read_file(folder / "latency.svg").substr(0, 7), "LD 0x40");
+}
+
 TEST(HostileEnd, ResultsOfAnotherCommandGo) {
     const Folder folder;
     const std::string out = folder / "out";

@@ -155,6 +155,28 @@ TEST(Judgement, LooksAtLimits) {
     EXPECT_EQ(within_words(judge(two_designs(), 3, {})[0]), "");
 }
 
+/// Nobody beats a design that is as good as one of the front, whatever stands first.
+TEST(Judgement, EqualDesignsAreOnTheFrontTogether) {
+    Comparison comparison = two_designs();
+    comparison.configs.push_back({"twin", "", {}, {}, {}});
+    comparison.configs.push_back({"worse", "", {}, {}, {}});
+    for (const auto& [config, of, more] : {std::tuple(2U, 0U, 0.0), std::tuple(3U, 0U, 0.5)}) {
+        for (std::size_t r = 0; r < 4; ++r) {
+            ComparisonRow row = comparison.rows[r];
+            if (row.config == of) {
+                row.config = config;
+                row.measures[Measure::AreaMm2] = 2 + more;
+                comparison.rows.push_back(row);
+            }
+        }
+    }
+    const auto verdicts = judge(comparison, 2, {parse_goals("latency_ms,area_mm2", "--goals"), {}});
+    EXPECT_TRUE(verdicts[0].on_front);
+    EXPECT_TRUE(verdicts[1].on_front);
+    EXPECT_TRUE(verdicts[2].on_front);
+    EXPECT_FALSE(verdicts[3].on_front);
+}
+
 /// Whether another is at least as good in all goals, and the better one or the earlier.
 bool is_beaten(const std::vector<Goals>& goals, std::size_t own) {
     for (std::size_t other = 0; other < goals.size(); ++other) {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/number_json.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace degs {
+
+nlohmann::ordered_json number_json(double value) {
+    if (std::isinf(value)) {
+        return value > 0 ? "inf" : "-inf";
+    }
+    return std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value);
+}
+
+} // namespace degs
