@@ -53,8 +53,8 @@ std::string space(const Folder& folder, const std::string& size = "width: 128\n"
     return file;
 }
 
-/// Eight designs on one of these views.
-std::string small_space(const Folder& folder) {
+/// On one of these views.
+std::string eight_designs(const Folder& folder) {
     const std::string file = folder / "small.yaml";
     std::ofstream(file) << "study: small\ndesigns:\n  - include: " << config("degs-64")
                         << "\n    name: degs-64\naxes:\n  span.count: [2, 8]\n"
@@ -124,7 +124,7 @@ TEST(Explore, FindsTheFrontOfAllDesigns) {
 
 TEST(Explore, GoesOnInItsFolder) {
     const Folder folder;
-    const std::string file = small_space(folder);
+    const std::string file = eight_designs(folder);
     EXPECT_EQ(explore(file, folder / "out").code, 0);
     const std::string before = read_file(folder / "out/explore.json");
     fs::remove(fs::directory_iterator(folder / "out/points")->path());
@@ -162,7 +162,7 @@ TEST(Explore, RefusesWhatItCannotSearch) {
 // What is good when it is large gives the front of what is good when it is small.
 TEST(Explore, MakesGoalsLargeWhereThatIsBetter) {
     const Folder folder;
-    const std::string file = small_space(folder);
+    const std::string file = eight_designs(folder);
     const auto names_on_front = [&](const std::string& goals, const std::string& out) {
         EXPECT_EQ(explore(file, folder / out, {"--goals", goals, "--rungs", "1"}).code, 0);
         std::vector<std::string> designs;
