@@ -65,9 +65,11 @@ void DrawingThread::take(TileNumber number, std::uint32_t place, const PixelRang
     Sheet& from = sheet(number, place);
     const Sheet::Splat& splat = from.splats[place % Sheet::kSplats];
     // Another processor has written the rows, and what comes next lies behind them.
-    const DrawnRow* const behind = from.drawn.data() + splat.drawn + splat.rows.size();
-    __builtin_prefetch(behind);
-    __builtin_prefetch(behind + kPrefetchedRows);
+    if (!from.drawn.empty()) {
+        const DrawnRow* const behind = from.drawn.data() + splat.drawn + splat.rows.size();
+        __builtin_prefetch(behind);
+        __builtin_prefetch(behind + kPrefetchedRows);
+    }
     from.copy(place, own, step, drawn);
     for (int row = own.first; row <= own.last; row += step, ++drawn) {
         count(*drawn);
