@@ -51,16 +51,16 @@ std::array<double, N> solve(Matrix<N> a, std::array<double, N> b, std::size_t n)
 // Hill's expansion of the quantile (Communications of the ACM 13, 1970, algorithm 396) is within
 // 4e-3 from three degrees of freedom on; the first two have closed forms.
 double student_t(std::size_t degrees_of_freedom) {
-    constexpr double kTail = 0.05; // both sides together
+    constexpr double kBothTails = 0.05; // both sides together
     const auto n = static_cast<double>(degrees_of_freedom);
     if (degrees_of_freedom == 0) {
         return std::numeric_limits<double>::infinity();
     }
     if (degrees_of_freedom == 1) {
-        return 1 / std::tan(kTail * std::acos(-1.0) / 2);
+        return 1 / std::tan(kBothTails * std::acos(-1.0) / 2);
     }
     if (degrees_of_freedom == 2) {
-        return std::sqrt(2 / (kTail * (2 - kTail)) - 2);
+        return std::sqrt(2 / (kBothTails * (2 - kBothTails)) - 2);
     }
     constexpr double kNormal = 1.959963984540054;
     const double z = kNormal, z2 = z * z;
