@@ -28,8 +28,8 @@ constexpr std::array<Ending, 6> kEndings{{{SIGINT, true},
 constexpr std::size_t kLongest = 512;
 
 /// Two, so that a signal finds one whole while the other is written.
-std::array<std::array<char, kLongest>, 2> sentences{{{"degs: Interrupted.\n"}, {}}};
-std::atomic<const char*> spoken_sentence{sentences[0].data()};
+std::array<std::array<char, kLongest>, 2> spoken_texts{{{"degs: Interrupted.\n"}, {}}};
+std::atomic<const char*> spoken_sentence{spoken_texts[0].data()};
 const char* spoken_first = ""; ///< clears the line of a terminal that shows how far the program is
 
 void write_text(const char* text) {
@@ -68,7 +68,8 @@ void announce_interruption() {
 }
 
 void set_interruption_sentence(const std::string& text) {
-    auto& next = spoken_sentence.load() == sentences[0].data() ? sentences[1] : sentences[0];
+    auto& next =
+        spoken_sentence.load() == spoken_texts[0].data() ? spoken_texts[1] : spoken_texts[0];
     const std::string shown = "degs: " + visible(text);
     const std::size_t size = std::min(shown.size(), kLongest - 2);
     shown.copy(next.data(), size);
