@@ -74,8 +74,8 @@ void degs_set_frame_buffer(const degs_device *device, uint64_t address, uint32_t
 #define DEGS_RESULT_BUSY          0x103u /* a frame, an abort or a reset has not ended yet */
 
 /* Clears what is left of the last frame (error, aborted, start ignored, pending interrupts) and starts a frame.
- * interrupts: bits of IRQ_ENABLE, as DEGS_IRQ_ENABLE_DONE | DEGS_IRQ_ENABLE_ERROR, or 0. While the accelerator is busy or in reset the start
- * is ignored, which degs_wait reports. */
+ * interrupts: bits of IRQ_ENABLE, as DEGS_IRQ_ENABLE_DONE | DEGS_IRQ_ENABLE_ERROR, or 0. While the accelerator is busy
+ * or in reset the start is ignored, which degs_wait reports. */
 void degs_start(const degs_device *device, uint32_t interrupts);
 /* Gives up the present frame; the accelerator is busy until it has. */
 void degs_abort(const degs_device *device);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole images of number sets against the double-precision reference.
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
+
+#include <regex.h>
 
 #include "accuracy/data_path_renderer.hpp"
 #include "accuracy/flip/flip.hpp"
@@ -49,23 +50,17 @@ std::string file_word(std::string name) {
     return name;
 }
 
-/// Whether measure_frame() may have written a file of that name: error-2-SCENE-640x480-SET.exr.
+/// Whether measure_frame() may have written a file of that name: error-2-SCENE-640x480-SET.exr. The
+/// expression is one of POSIX, because those of C++ are templates that take seconds to compile.
 bool is_error_image(const std::string& name) {
-    const std::string extension = ".exr";
-    int begin = 0;
-    std::sscanf(name.c_str(), "error-%*[0-9]-%n", &begin);
-    if (begin == 0 || name.size() < begin + extension.size()) {
+    regex_t form;
+    if (::regcomp(&form, "^error-[0-9]+-.*-[0-9]+x[0-9]+-.*\\.exr$", REG_EXTENDED | REG_NOSUB) !=
+        0) {
         return false;
     }
-    const std::size_t end = name.size() - extension.size();
-    for (std::size_t at = name.find('-', begin); at < end; at = name.find('-', at + 1)) {
-        int length = 0; // stays if there is no size here
-        std::sscanf(name.c_str() + at, "-%*[0-9]x%*[0-9]-%n", &length);
-        if (length != 0 && at + length <= end) {
-            return name.compare(end, std::string::npos, extension) == 0;
-        }
-    }
-    return false;
+    const bool matches = ::regexec(&form, name.c_str(), 0, nullptr, 0) == 0;
+    ::regfree(&form);
+    return matches;
 }
 
 WorstPixel explain(Frame& frame, const ImageDifference& difference, const NumberSet& set,

@@ -38,7 +38,7 @@ private:
         TraceAccess access;
         sc_core::sc_time date; // from which its latency counts, if the trace has dates
     };
-    struct Idle { // what the memory has done before the first request
+    struct Idle { // commands and energy of the time before the first request
         dram::Channel::Stats commands;
         dram::Energy energy;
     };

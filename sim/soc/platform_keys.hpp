@@ -9,11 +9,11 @@
 
 namespace degs::sim {
 
-/// The keys of a design that have no part in a frame on a platform: what the platform has itself,
-/// what only several frames have, and what only reports of degs run show. Throws InputError, one
-/// sentence, if an override gives one; returns a sentence for each that a file sets to another
-/// value than its default, behind those of `config` that hold on a platform, too. `config` is what
-/// `source` describes.
+/// Finds keys of a design that have no effect on a platform, because the platform has its own
+/// memory, renders one view at a time, keeps the scene as floats, or bills nothing. Throws
+/// InputError, one sentence, if an override sets such a key. Returns the warnings of `config` that
+/// also hold on a platform, and one for each such key that a file sets to another value than its
+/// default. `config` is what `source` describes.
 std::vector<std::string> check_platform_keys(const ConfigSource& source, const RunConfig& config);
 
 } // namespace degs::sim

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.hpp"
-
 #include "scene/cameras/camera_place.hpp"
 
 namespace degs {

@@ -32,8 +32,8 @@ private:
 /// Throws InputError if sizes differ or the images are empty.
 void check_comparable(const Image& reference, const Image& test);
 
-/// Compares two images; accumulates in double. A non-finite pixel makes the numbers
-/// it enters NaN or infinite. Throws InputError as check_comparable().
+/// Compares two images; accumulates in double. A non-finite pixel makes the numbers it enters NaN
+/// or infinite. Throws InputError as check_comparable().
 ImageError compare_images(const Image& reference, const Image& test);
 
 } // namespace degs
