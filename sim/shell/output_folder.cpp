@@ -65,7 +65,9 @@ OutputFolder::OutputFolder(std::string folder, const std::vector<std::string>& f
     }
     for (const std::string& file : files) {
         const std::string name = path(file);
-        if (fs::exists(name, error) && !fs::is_regular_file(name, error)) {
+        // Asked once: another part of a search may take the file away between two questions.
+        const fs::file_status status = fs::status(name, error);
+        if (fs::exists(status) && !fs::is_regular_file(status)) {
             fail_folder(folder_, "'" + file + "' in it is not a file");
         }
         refuse_output_in_use(name);

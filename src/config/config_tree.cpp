@@ -28,10 +28,11 @@ std::string read_bytes(const fs::path& path, const std::string& place) {
     }
     const std::string name = place + "configuration file " + quote(path.string());
     std::error_code ignored;
-    if (fs::is_directory(path, ignored)) {
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::is_directory(status)) {
         throw InputError(name + " is a directory; a YAML file is expected.");
     }
-    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) { // reading may never end
+    if (fs::exists(status) && !fs::is_regular_file(status)) { // reading may never end
         throw InputError(name + " is not a regular file; a YAML file is expected.");
     }
     errno = 0;
