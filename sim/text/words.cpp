@@ -39,6 +39,7 @@ std::string significant(double value, int digits) {
 
 std::vector<std::string> significant(const std::vector<double>& values, int digits) {
     std::vector<std::string> texts;
+    texts.reserve(values.size());
     for (const double value : values) {
         texts.push_back(significant(value, digits));
     }
