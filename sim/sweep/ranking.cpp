@@ -38,6 +38,7 @@ std::vector<std::vector<std::string>> goal_columns(const std::vector<DesignVerdi
     std::vector<std::vector<std::string>> columns;
     for (std::size_t g = 0; !shown.empty() && g < shown.front().costs.size(); ++g) {
         std::vector<double> values;
+        values.reserve(shown.size());
         for (const Ranked& ranked : shown) {
             values.push_back(*verdicts[ranked.variant].goals[g]);
         }
