@@ -3,7 +3,9 @@
 
 import base64
 import copy
+import difflib
 import html
+import inspect
 import io
 import json
 import tempfile
@@ -158,7 +160,7 @@ def run(design: Union[Design, PathLike], scene: Optional[PathLike] = None, *, ca
     design ({"span.count": 16}), as do keys without a dot as arguments (clock_ghz=0.5) and sections
     (span={"count": 16}). Without `out`, no files are kept. May run in several threads at once. Raises Error
     with the program's sentence."""
-    chosen = (design if isinstance(design, Design) else Design(design)).with_(keys, **top_keys)
+    chosen = changed(design if isinstance(design, Design) else Design(design), keys, top_keys)
     options = options_of(scene=scene, camera=camera, camera_file=camera_file, width=width, height=height,
                          resolution=resolution, crop=crop, frames=frames, path_step=path_step, fidelity=fidelity,
                          within=within, seed=seed, memory=memory, trace=trace, trace_step=trace_step, maps=maps,
@@ -176,6 +178,21 @@ def run(design: Union[Design, PathLike], scene: Optional[PathLike] = None, *, ca
         png = None if estimated else (folder / "image.png").read_bytes()
     lines = printed if out is not None else printed.replace(f" · {folder}/image.exr", "")
     return Report(values, png, None if out is None else folder, lines)
+
+
+def changed(design: Design, keys: Optional[Mapping[str, Any]], top_keys: Mapping[str, Any]) -> Design:
+    """The design with other values. Of an unknown key that was meant as an argument, the sentence says so."""
+    try:
+        return design.with_(keys, **top_keys)
+    except Missing as missing:
+        arguments = [name for name in inspect.signature(run).parameters if name not in ("design", "top_keys")]
+        for name in top_keys:
+            close = difflib.get_close_matches(name, arguments, 2)
+            words = f"key '{name}' is unknown"
+            if close and words in str(missing):
+                advice = f"{words}; did you mean the argument {' or '.join(repr(each) for each in close)}?"
+                raise Missing(str(missing).replace(words, advice, 1), missing.code, missing.command) from None
+        raise
 
 
 def options_of(**options: Any) -> List[str]:

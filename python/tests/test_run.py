@@ -81,6 +81,7 @@ def test_options_reach_the_program(tmp_path):
     assert (tmp_path / "maps").is_dir() and (tmp_path / "trace.json").is_file()
     estimate = degs.run("degs-64", SCENE, width=64, fidelity="analytic", what_if=["span.count=4", "span.count=16"])
     assert estimate.cycles > 0 and "takes about" in repr(estimate) and "<pre>" in estimate._repr_html_()
+    assert estimate.area.to_dict() == degs.run("degs-64", SCENE, width=64).area.to_dict()
     with pytest.raises(degs.Error, match="An estimate has no picture"):
         estimate.image
 
@@ -107,7 +108,9 @@ def test_every_option_of_the_program_is_an_argument():
     ({"width": 0}, "width"),
     ({"fidelity": "exakt"}, "exakt"),
     ({"keys": {"span.cuont": 3}}, "did you mean 'span.count'"),
-    ({"widht": 64}, "key 'widht' is unknown"),
+    ({"widht": 64}, "key 'widht' is unknown; did you mean the argument 'width'?"),
+    ({"camra": 1}, "did you mean the argument 'camera' or 'camera_file'?"),
+    ({"spam": {"count": 4}}, "did you mean"),
     ({"keys": {"scheduler.reuse_cycles": 1}}, "must be at least 4 to cover array.writeback_cycles"),
 ])
 def test_a_mistake_is_one_sentence(arguments, sentence):

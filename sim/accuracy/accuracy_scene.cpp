@@ -12,6 +12,7 @@
 #include "scene/files/image_io.hpp"
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
+#include "sim/shell/scene_list.hpp"
 #include "sim/simulation/simulation.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
@@ -141,7 +142,9 @@ void measure_frame(const SceneAccuracyRequest& request, Frame& frame, const Outp
 std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
                                         const OutputFolder& out) {
     std::vector<AccuracyRow> rows;
-    for (const ViewRequest& view : request.scenes) {
+    const std::vector<std::string> labels = scene_labels(request.scenes);
+    for (std::size_t s = 0; s < labels.size(); ++s) {
+        const ViewRequest& view = request.scenes[s];
         const View loaded = load_view(view);
         print_warnings(loaded.scene.notes);
         std::vector<Camera> cameras;
@@ -153,7 +156,7 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
         }
         for (const Camera& camera : cameras) {
             Frame frame;
-            frame.row.scene = loaded.scene.name;
+            frame.row.scene = labels[s];
             frame.row.camera = view.camera;
             frame.row.resolution =
                 std::to_string(camera.width) + "x" + std::to_string(camera.height);

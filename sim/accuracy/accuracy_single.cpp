@@ -7,6 +7,7 @@
 #include "base/ratio.hpp"
 #include "degs/error.hpp"
 #include "sim/accuracy/accuracy.hpp"
+#include "sim/shell/scene_list.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
 #include "splat/frame/frame_workload.hpp"
@@ -74,7 +75,7 @@ void measure_kind(const SingleGaussianRequest& request, const std::vector<Quanti
 /// Splats of a view, each seen through the tile that has its mean.
 void measure_view_splats(const SingleGaussianRequest& request,
                          const std::vector<QuantizedRow>& paths, const ViewRequest& view,
-                         std::vector<AccuracyRow>& rows) {
+                         const std::string& label, std::vector<AccuracyRow>& rows) {
     const View loaded = load_view(view);
     const Camera& camera = loaded.camera;
     const ProjectionOptions options = request.rules.options(false);
@@ -87,7 +88,7 @@ void measure_view_splats(const SingleGaussianRequest& request,
                          "' sees no Gaussian.");
     }
     AccuracyRow kind;
-    kind.scene = loaded.scene.name;
+    kind.scene = label;
     kind.camera = view.camera;
     kind.resolution = std::to_string(camera.width) + "x" + std::to_string(camera.height);
     const auto sampler = [&](std::mt19937_64& random) {
@@ -122,8 +123,9 @@ std::vector<AccuracyRow> measure_single_gaussians(const SingleGaussianRequest& r
             return Sample{random_window_splat(random), {}};
         },
         rows);
-    for (const ViewRequest& view : request.views) {
-        measure_view_splats(request, paths, view, rows);
+    const std::vector<std::string> labels = scene_labels(request.views);
+    for (std::size_t v = 0; v < labels.size(); ++v) {
+        measure_view_splats(request, paths, request.views[v], labels[v], rows);
     }
     return rows;
 }

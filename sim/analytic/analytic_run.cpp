@@ -149,6 +149,7 @@ ordered_json analytic_json(const AnalyticRun& run) {
     json["slots"] = {{"pes", run.config.accelerator().pes()}, {"utilization", frame.utilization}};
     json["dram"] = {{"bytes", frame.bytes}, {"peak_gb_per_s", run.memory_gb_per_s}};
     json["energy"] = energy_json(run.energy);
+    json["area"] = area_json(run.config);
     json["sample"] = {
         {"tiles", frame.tiles}, {"tiles_drawn", frame.drawn}, {"rows_apart", frame.rows_apart}};
     if (!run.what_if.empty()) {

@@ -119,6 +119,7 @@ void CompareSession::take(const ViewRun& started, ChildOutcome&& outcome) {
     }
     RunSummary summary = summary_from(outcome.output);
     summary.view.dynamic = started.dynamic;
+    summary.view.scene = runs_.label_of(started.scene);
     const OutputFolder folder(out_.path("reports/" + started.folder), {});
     const std::string file = std::to_string(started.config + 1) + "-" + file_name(name) +
                              (started.path ? "-path.json" : ".json");

@@ -47,14 +47,11 @@ const char* ink_on(const char* colour) {
     return light > 140 ? kInk : "#ffffff";
 }
 
-/// With one decimal if that fits, else none, else nothing.
+/// With one decimal if that fits, else nothing: 5.9 is not 6.
 void draw_share(Svg& svg, double x, double y, double width, double share, const char* colour) {
-    for (int decimals : {1, 0}) {
-        const std::string words = percent(share, decimals);
-        if (text_width(words, kSmallText) + 4 <= width && words != "0") {
-            svg.text(x + width / 2, y, words, {kSmallText, ink_on(colour), "middle", false});
-            return;
-        }
+    const std::string words = percent(share);
+    if (text_width(words, kSmallText) + 4 <= width) {
+        svg.text(x + width / 2, y, words, {kSmallText, ink_on(colour), "middle", false});
     }
 }
 

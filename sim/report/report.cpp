@@ -214,6 +214,12 @@ ordered_json tool_json() {
     return {{"name", "degs"}, {"version", DEGS_VERSION}};
 }
 
+ordered_json area_json(const RunConfig& config) {
+    return statistics_json(list_statistics([&config](StatsVisitor& visitor) {
+        visitor.section("area", config.accelerator().bill(), "What the design costs.");
+    }))["area"];
+}
+
 ordered_json scene_json(const SceneFacts& scene) {
     ordered_json json{{"name", scene.name},
                       {"source", scene.source},

@@ -19,6 +19,7 @@ void describe(const RunResult& result, StatsVisitor& visitor);
 
 // Parts that other commands report too.
 nlohmann::ordered_json tool_json();
+nlohmann::ordered_json area_json(const RunConfig& config);
 nlohmann::ordered_json scene_json(const SceneFacts& scene);
 nlohmann::ordered_json camera_json(const Camera& camera);
 nlohmann::ordered_json workload_json(const WorkloadFacts& workload, const SceneFacts& scene);

@@ -107,14 +107,31 @@ void refuse_beside_analytic(const RunOptions& options) {
     }
 }
 
+/// Files of an earlier run that tell nothing of this one: maps of tiles, and further images.
+std::vector<std::string> old_files(const OutputFolder& out, const std::optional<OutputFolder>& maps,
+                                   std::size_t images) {
+    std::vector<std::string> paths = old_tile_maps(out, maps);
+    const auto there = [](const std::string& path) { return std::filesystem::exists(path); };
+    for (std::size_t v = images;; ++v) {
+        const std::string exr = out.path(view_file("image", v, ".exr"));
+        const std::string png = out.path(view_file("image", v, ".png"));
+        if (!there(exr) || !there(png)) {
+            return paths;
+        }
+        paths.push_back(exr);
+        paths.push_back(png);
+    }
+}
+
 void estimate(const RunOptions& options) {
     refuse_beside_analytic(options);
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
     CachedView view(options.view, options.path,
                     options.no_cache ? FrameCache() : FrameCache::of_user());
-    const OutputFolder out(options.out, {"analytic.json"});
+    const OutputFolder out(options.out, image_result_files("analytic.json"));
     const AnalyticRun run = run_analytic(config, view, changed_designs(config, options.what_if));
-    out.write_json("analytic.json", analytic_json(run));
+    out.replace([&] { out.write_json("analytic.json", analytic_json(run)); },
+                old_files(out, std::nullopt, 1));
     print_warnings(run.warnings);
     print(analytic_text(run));
 }
@@ -233,22 +250,6 @@ std::vector<std::string> result_files(const RunOptions& options) {
         files.push_back(view_file("image", v, ".png"));
     }
     return files;
-}
-
-/// Files of an earlier run that tell nothing of this one: maps of tiles, and further images.
-std::vector<std::string> old_files(const OutputFolder& out, const std::optional<OutputFolder>& maps,
-                                   std::size_t images) {
-    std::vector<std::string> paths = old_tile_maps(out, maps);
-    const auto there = [](const std::string& path) { return std::filesystem::exists(path); };
-    for (std::size_t v = images;; ++v) {
-        const std::string exr = out.path(view_file("image", v, ".exr"));
-        const std::string png = out.path(view_file("image", v, ".png"));
-        if (!there(exr) || !there(png)) {
-            return paths;
-        }
-        paths.push_back(exr);
-        paths.push_back(png);
-    }
 }
 
 void write_results(const RunOptions& options, const RunRequest& request, const RunResult& result,

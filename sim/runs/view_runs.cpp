@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "sim/runs/shared_view.hpp"
+#include "sim/shell/scene_list.hpp"
 #include "sim/simulation/view_group.hpp"
 
 namespace degs::sim {
@@ -53,7 +54,7 @@ std::string file_name(const std::string& text) {
 }
 
 ViewRuns::ViewRuns(const CompareRequest& request, ViewRunsHooks hooks)
-    : request_(request), hooks_(std::move(hooks)),
+    : request_(request), hooks_(std::move(hooks)), labels_(scene_labels(request.scenes)),
       pool_(request.jobs,
             {[this](std::size_t run, ChildOutcome&& outcome) {
                  hooks_.ended(started_[run], std::move(outcome));
@@ -167,7 +168,7 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
     if (configs.empty()) {
         return;
     }
-    place.words = scene.name + " · camera " + std::to_string(place.camera);
+    place.words = labels_[place.scene] + " · camera " + std::to_string(place.camera);
     const std::size_t before = started_.size();
     try {
         const ImageSize& size = request_.sizes[place.size];

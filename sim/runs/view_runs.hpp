@@ -67,6 +67,8 @@ public:
     void stop() { pool_.stop(); }
     /// Runs of a view on which every configuration is wanted.
     std::size_t per_view() const;
+    /// What a scene of the request is called beside the others.
+    const std::string& label_of(std::size_t scene) const { return labels_[scene]; }
     /// A view of consecutive ones is a run of the view before alone, and one of both.
     static bool follows(const CompareRequest& request, std::size_t config, int camera);
 
@@ -86,7 +88,8 @@ private:
 
     const CompareRequest& request_;
     ViewRunsHooks hooks_;
-    std::size_t views_ = 0; ///< begun
+    std::vector<std::string> labels_; ///< of the scenes
+    std::size_t views_ = 0;           ///< begun
     std::vector<ViewRun> started_;
     bool interrupted_ = false;
     ChildPool pool_; ///< the last, because it calls back

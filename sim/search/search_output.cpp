@@ -2,6 +2,9 @@
 #include "sim/search/search_output.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -36,6 +39,26 @@ std::string fidelity_of(const CompareRequest& request, const Rung& rung) {
                                                      : "exact";
 }
 
+/// What a limit is about, where no goal and no earlier limit shows it: it is beside the goals.
+std::vector<std::size_t> limits_beside_goals(const Aims& aims) {
+    std::set<std::string> shown;
+    for (const Aim& goal : aims.goals) {
+        shown.insert(goal.name);
+    }
+    std::vector<std::size_t> limits;
+    for (std::size_t l = 0; l < aims.limits.size(); ++l) {
+        if (shown.insert(aims.limits[l].aim.name).second) {
+            limits.push_back(l);
+        }
+    }
+    return limits;
+}
+
+std::optional<double> limited_value(const Candidate& candidate, std::size_t limit) {
+    const std::vector<LimitValue>& limits = candidate.verdict.limits;
+    return limits.empty() ? std::nullopt : limits[limit].value;
+}
+
 std::string front_csv(const StudyPlan& plan, const Search& search,
                       const std::vector<Candidate>& candidates) {
     const std::string fidelity = fidelity_of(plan.request, search.rungs.back());
@@ -47,6 +70,10 @@ std::string front_csv(const StudyPlan& plan, const Search& search,
     for (const Aim& goal : plan.aims.goals) {
         text += "," + csv_cell(goal.name);
     }
+    const std::vector<std::size_t> beside = limits_beside_goals(plan.aims);
+    for (const std::size_t limit : beside) {
+        text += "," + csv_cell(plan.aims.limits[limit].aim.name);
+    }
     text += std::string(",on_front,baseline,fidelity") + (limited ? ",within" : "") + "\n";
     for (const Candidate& candidate : candidates) {
         const StudyVariant& variant = plan.variants[candidate.variant];
@@ -56,6 +83,9 @@ std::string front_csv(const StudyPlan& plan, const Search& search,
         }
         for (const std::optional<double>& goal : candidate.verdict.goals) {
             text += "," + csv_number(goal);
+        }
+        for (const std::size_t limit : beside) {
+            text += "," + csv_number(limited_value(candidate, limit));
         }
         text += std::string(candidate.verdict.on_front ? ",1" : ",0") +
                 (candidate.variant == plan.baseline ? ",1," : ",0,") + fidelity +
@@ -153,6 +183,28 @@ std::string remark_on(const Candidate& candidate, bool baseline) {
     return baseline ? " (baseline, " + why + ")" : " (" + why + ")";
 }
 
+/// The cells of every goal, and of what else limits are about.
+std::vector<std::vector<std::string>> front_columns(const Aims& aims,
+                                                    const std::vector<Candidate>& shown) {
+    std::vector<std::vector<std::string>> columns;
+    std::vector<double> values;
+    for (std::size_t g = 0; g < aims.goals.size(); ++g) {
+        values.clear();
+        for (const Candidate& candidate : shown) {
+            values.push_back(goals_of(candidate.verdict)[g]);
+        }
+        columns.push_back(told_apart(values));
+    }
+    for (const std::size_t limit : limits_beside_goals(aims)) {
+        values.clear();
+        for (const Candidate& candidate : shown) {
+            values.push_back(limited_value(candidate, limit).value_or(NAN));
+        }
+        columns.push_back(told_apart(values));
+    }
+    return columns;
+}
+
 /// The front and the baseline; where nothing is within the limits, the design that misses them
 /// least.
 std::string front_table(const StudyPlan& plan, const std::vector<Candidate>& candidates) {
@@ -160,22 +212,29 @@ std::string front_table(const StudyPlan& plan, const std::vector<Candidate>& can
     for (const Aim& goal : plan.aims.goals) {
         head.push_back(goal.name);
     }
+    for (const std::size_t limit : limits_beside_goals(plan.aims)) {
+        head.push_back(visible(plan.aims.limits[limit].aim.name));
+    }
     TextTable table(head);
     const auto nearest = std::min_element(
         candidates.begin(), candidates.end(),
         [](const Candidate& a, const Candidate& b) { return a.verdict.excess < b.verdict.excess; });
     const bool none = nearest != candidates.end() && !nearest->verdict.is_within();
-    for (const Candidate& candidate : candidates) {
-        const bool baseline = candidate.variant == plan.baseline;
-        const bool shown = none && candidate.variant == nearest->variant;
-        if (candidate.verdict.on_front || baseline || shown) {
-            std::vector<std::string> cells{visible(changes_of(plan.variants[candidate.variant])) +
-                                           remark_on(candidate, baseline)};
-            for (const double goal : goals_of(candidate.verdict)) {
-                cells.push_back(three_digits(goal));
-            }
-            table.add(cells);
+    std::vector<Candidate> shown;
+    std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(shown),
+                 [&](const Candidate& candidate) {
+                     return candidate.verdict.on_front || candidate.variant == plan.baseline ||
+                            (none && candidate.variant == nearest->variant);
+                 });
+    const std::vector<std::vector<std::string>> columns = front_columns(plan.aims, shown);
+    for (std::size_t row = 0; row < shown.size(); ++row) {
+        const Candidate& candidate = shown[row];
+        std::vector<std::string> cells{visible(changes_of(plan.variants[candidate.variant])) +
+                                       remark_on(candidate, candidate.variant == plan.baseline)};
+        for (const std::vector<std::string>& column : columns) {
+            cells.push_back(column[row]);
         }
+        table.add(cells);
     }
     return (none ? "no design is within the limits; the nearest is shown\n\n" : "\n") +
            table.text();

@@ -120,7 +120,7 @@ void OutputFolder::replace(const std::function<void()>& write,
 
 std::vector<std::string> image_result_files(const std::string& document) {
     std::vector<std::string> files{document};
-    for (const char* const other : {"report.json", "render.json"}) {
+    for (const char* const other : {"report.json", "render.json", "analytic.json"}) {
         if (document != other) {
             files.emplace_back(other);
         }

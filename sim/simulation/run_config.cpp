@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "baselines/accelerators.hpp"
+#include "baselines/costs_of_others.hpp"
 #include "config/config_source.hpp"
 
 namespace degs::sim {
@@ -84,6 +85,7 @@ RunConfig sized_run_config(const std::string& kind, int pes,
 RunConfig load_run_config(const ConfigSource& source) {
     RunConfig config;
     config.warnings = source.load(config);
+    check_costs_of_others(source, config);
     return config;
 }
 

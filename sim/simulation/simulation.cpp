@@ -241,6 +241,12 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
             run_accelerator(request.config.accelerator(), frames, request.fidelity, request.build,
                             request.recording, progress, request.views);
     }
+    if (!sampled && !result.accelerator.images.empty()) {
+        for (std::string& sentence : saturation_warnings(request.config.accelerator().data_path(),
+                                                         result.accelerator.images.front())) {
+            result.warnings.push_back(std::move(sentence));
+        }
+    }
     for (std::string& sentence : hazard_warnings(result.accelerator)) {
         result.warnings.push_back(std::move(sentence));
     }

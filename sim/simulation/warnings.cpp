@@ -12,18 +12,41 @@
 
 namespace degs::sim {
 
+namespace {
+
+/// `of`: splats or pixels; `all`: how many there are; `how`: what the saturated ones do.
+std::string saturation_words(const Saturation& found, std::size_t all, const std::string& of,
+                             const std::string& how) {
+    return "Stage " + found.stage + " saturates: " + grouped(found.splats) + " of " + grouped(all) +
+           " " + of + " (" + three_digits(100 * ratio_of(found.splats, all)) + " %) " + how + " " +
+           three_digits(found.limit) + ", the largest value of " + found.format +
+           "; pipeline.formats." + found.stage + " sets another format.";
+}
+
+} // namespace
+
 std::vector<std::string> saturation_warnings(const DataPathOptions& options,
                                              const FrameWorkload& frame) {
     std::vector<std::string> warnings;
     for (const Saturation& found : saturated_stages(options, frame)) {
-        const double share = ratio_of(found.splats, frame.splats.size());
-        warnings.push_back("Stage " + found.stage + " saturates: " + grouped(found.splats) +
-                           " of " + grouped(frame.splats.size()) + " splats (" +
-                           three_digits(100 * share) + " %) lie beyond " +
-                           three_digits(found.limit) + ", the largest value of " + found.format +
-                           "; pipeline.formats." + found.stage + " sets another format.");
+        warnings.push_back(saturation_words(found, frame.splats.size(), "splats", "lie beyond"));
     }
     return warnings;
+}
+
+std::vector<std::string> saturation_warnings(const DataPathOptions& options, const Image& image) {
+    std::optional<Saturation> sum = end_of_sums(options);
+    if (!sum) {
+        return {};
+    }
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const float* const rgb = &image.rgb[3 * i];
+        sum->splats += *std::max_element(rgb, rgb + 3) < sum->limit ? 0 : 1;
+    }
+    if (sum->splats == 0) {
+        return {};
+    }
+    return {saturation_words(*sum, image.pixels(), "pixels", "reach")};
 }
 
 std::vector<std::string> near_plane_warnings(const CullCounts& culled,

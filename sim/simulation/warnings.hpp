@@ -12,6 +12,8 @@ namespace degs::sim {
 /// One sentence for each number format of the data path that splats of `frame` leave.
 std::vector<std::string> saturation_warnings(const DataPathOptions& options,
                                              const FrameWorkload& frame);
+/// A sentence if the colours of pixels have reached the end of the format of their sums.
+std::vector<std::string> saturation_warnings(const DataPathOptions& options, const Image& image);
 /// A sentence if the near plane removes Gaussians that lie inside the view, with the key that moves
 /// it.
 std::vector<std::string> near_plane_warnings(const CullCounts& culled,

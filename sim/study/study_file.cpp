@@ -245,6 +245,22 @@ std::vector<Axis> read_axes(const ConfigNode& tree, const fs::path& folder) {
 
 } // namespace
 
+namespace {
+
+bool has_included_keys(const ConfigNode& node) {
+    return node.layer > 1 ||
+           std::any_of(node.children.begin(), node.children.end(), has_included_keys);
+}
+
+/// What a design of a study changes in the file that it includes counts like --set: its values were
+/// chosen for these runs.
+void choose_own_keys(ConfigNode& node) {
+    node.layer = node.layer == 1 && node.kind != Kind::kSection ? 0 : node.layer;
+    std::for_each(node.children.begin(), node.children.end(), choose_own_keys);
+}
+
+} // namespace
+
 bool is_study(const ConfigNode& tree) {
     return tree.find("axes") != nullptr || list_of_designs(tree) != nullptr;
 }
@@ -266,6 +282,9 @@ std::vector<StudyDesign> read_designs(const ConfigNode& tree) {
             throw InputError(name->place + ": key 'name' of a design must be a word.");
         }
         designs.push_back({name->text, point});
+        if (has_included_keys(point)) {
+            choose_own_keys(designs.back().tree);
+        }
     }
     if (list.kind != Kind::kList || designs.empty()) {
         throw InputError(list.place + ": key " + quote(list.key) +

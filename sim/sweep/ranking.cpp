@@ -32,6 +32,21 @@ std::vector<Ranked> ranking(const std::vector<DesignVerdict>& verdicts,
     return ranked;
 }
 
+/// The cells of every goal, of designs that have all goals.
+std::vector<std::vector<std::string>> goal_columns(const std::vector<DesignVerdict>& verdicts,
+                                                   const std::vector<Ranked>& shown) {
+    std::vector<std::vector<std::string>> columns;
+    for (std::size_t g = 0; !shown.empty() && g < shown.front().costs.size(); ++g) {
+        std::vector<double> values;
+        values.reserve(shown.size());
+        for (const Ranked& ranked : shown) {
+            values.push_back(*verdicts[ranked.variant].goals[g]);
+        }
+        columns.push_back(told_apart(values));
+    }
+    return columns;
+}
+
 } // namespace
 
 std::string ranking_text(const StudyPlan& plan, const SweepResults& results,
@@ -49,11 +64,13 @@ std::string ranking_text(const StudyPlan& plan, const SweepResults& results,
         head.emplace_back("within");
     }
     TextTable table(head);
-    for (std::size_t r = 0; r < std::min(most, ranked.size()); ++r) {
-        const std::size_t variant = ranked[r].variant;
+    std::vector<Ranked> shown(ranked.begin(), ranked.begin() + std::min(most, ranked.size()));
+    const std::vector<std::vector<std::string>> columns = goal_columns(verdicts, shown);
+    for (std::size_t r = 0; r < shown.size(); ++r) {
+        const std::size_t variant = shown[r].variant;
         std::vector<std::string> cells{visible(plan.variants[variant].name)};
-        for (const double goal : goals_of(verdicts[variant])) {
-            cells.push_back(three_digits(goal));
+        for (const std::vector<std::string>& column : columns) {
+            cells.push_back(column[r]);
         }
         if (limited) {
             cells.push_back(within_words(verdicts[variant]));

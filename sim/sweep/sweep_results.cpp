@@ -11,6 +11,7 @@
 #include "sim/page/page.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/result_words.hpp"
+#include "sim/shell/scene_list.hpp"
 #include "sim/sweep/bandwidth_curve.hpp"
 #include "sim/text/words.hpp"
 
@@ -282,12 +283,14 @@ SweepResults read_results(const StudyPlan& plan, const PointStore& store, Report
     SweepResults results;
     std::vector<ComparedRun> runs;
     std::set<std::string> known;
+    const std::vector<std::string> labels = scene_labels(plan.request.scenes);
     for (std::size_t p = 0; p < plan.points.size(); ++p) {
         std::optional<StoredPoint> found = store.read(p);
         if (reports == Reports::Put) {
             store.put_reports(p, found);
         }
         if (found) {
+            found->frame.view.scene = labels[plan.points[p].scene];
             found->frame.report.clear(); // all of them would take much memory
             if (found->path) {
                 found->path->report.clear();

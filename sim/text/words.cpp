@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <set>
 #include <utility>
 
 #include "config/config_words.hpp"
@@ -18,24 +19,52 @@ std::string fixed(double value, int decimals) {
     return text;
 }
 
-/// Rounded to three significant digits, so that 999.6 is 1000 before its unit is chosen.
-double rounded(double value) {
+/// Rounded to significant digits, so that of three 999.6 is 1000 before its unit is chosen.
+double rounded(double value, int digits = 3) {
     if (value == 0 || !std::isfinite(value)) {
         return value;
     }
-    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
+    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1 - digits);
     return std::round(value / unit) * unit;
+}
+
+std::string significant(double value, int digits) {
+    const double shown = rounded(value, digits);
+    if (shown == 0 || !std::isfinite(shown)) {
+        return fixed(shown, 0);
+    }
+    const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(shown)) + 1e-9));
+    return fixed(shown, std::clamp(digits - 1 - magnitude, 0, 9));
+}
+
+std::vector<std::string> significant(const std::vector<double>& values, int digits) {
+    std::vector<std::string> texts;
+    texts.reserve(values.size());
+    for (const double value : values) {
+        texts.push_back(significant(value, digits));
+    }
+    return texts;
+}
+
+template <typename T>
+std::size_t different(const std::vector<T>& values) {
+    return std::set<T>(values.begin(), values.end()).size();
 }
 
 } // namespace
 
 std::string three_digits(double value) {
-    const double shown = rounded(value);
-    if (shown == 0 || !std::isfinite(shown)) {
-        return fixed(shown, 0);
+    return significant(value, 3);
+}
+
+std::vector<std::string> told_apart(const std::vector<double>& values) {
+    constexpr int kMost = 9; // farther down, sums in another order differ
+    int digits = 3;
+    const std::size_t all = different(significant(values, kMost));
+    while (digits < kMost && different(significant(values, digits)) < all) {
+        ++digits;
     }
-    const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(shown)) + 1e-9));
-    return fixed(shown, std::clamp(2 - magnitude, 0, 9));
+    return significant(values, digits);
 }
 
 std::string decimal_of(double value) {

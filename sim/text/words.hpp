@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/grouped_number.hpp"
 #include "config/quantity.hpp"
@@ -15,6 +16,9 @@ using degs::decimal_text;
 using degs::grouped;
 /// Three significant digits without exponent: 2.108 -> "2.11", 473.9 -> "474", 51234 -> "51200".
 std::string three_digits(double value);
+/// Values of a column with three significant digits, or with as many as it takes that values that
+/// differ do not look alike.
+std::vector<std::string> told_apart(const std::vector<double>& values);
 /// The shortest decimal that reads back to the value that was meant: a short one that the value
 /// misses by no more than rounding does (2.178 for 2.1780000000000004, which a sum made), else the
 /// value's own.

@@ -2,6 +2,7 @@
 #include "degs/design.hpp"
 
 #include "baselines/accelerators.hpp"
+#include "baselines/costs_of_others.hpp"
 #include "config/config_source.hpp"
 #include "config/key_value.hpp"
 #include "config/key_walk.hpp"
@@ -83,7 +84,9 @@ void Design::describe(ConfigVisitor& visitor) {
 
 Design load_design(const std::string& file, const std::vector<std::string>& overrides) {
     Design design;
-    design.warnings = ConfigSource::from_file(file, overrides).load(design);
+    const ConfigSource source = ConfigSource::from_file(file, overrides);
+    design.warnings = source.load(design);
+    check_costs_of_others(source, design);
     return design;
 }
 

@@ -189,7 +189,8 @@ void ConfigReader::advise(bool in_proportion, const ConfigRule& rule) {
 }
 
 void ConfigReader::advise_if_set(bool of_use, const ConfigRule& rule) {
-    if (source_.override_of(path_of(rule.key)) != nullptr) {
+    const ConfigSource::Given given = source_.strongest(path_of(rule.key));
+    if (given.node != nullptr && given.node->layer == 0) {
         advise(of_use, rule);
     }
 }

@@ -95,13 +95,27 @@ void LensNote::add(const Camera& camera) {
         camera.lens.radius_at(fold) < glm::length(farthest_corner(camera))) {
         fold_ = std::min(fold_, std::atan(fold) / kDegree);
     }
+    constexpr double kNarrow = 0.1; // no lens that images are made for shows so little
+    const double corner = glm::length(farthest_corner(camera));
+    const double seen = std::atan(camera.lens.slope_at(corner)) / kDegree;
+    if (!camera.lens.is_pinhole() && camera.lens.radius_at(fold) >= corner &&
+        seen < kNarrow * std::atan(corner) / kDegree) {
+        narrowest_ = std::min(narrowest_, seen);
+    }
 }
 
 std::string LensNote::text(const std::string& path) const {
-    return fold_ == 90 ? ""
-                       : "A lens of " + path + " folds back " + three_digits(fold_) +
-                             " degrees from the view axis, before a corner of its image; nothing "
-                             "is drawn beyond.";
+    if (fold_ < 90) {
+        return "A lens of " + path + " folds back " + three_digits(fold_) +
+               " degrees from the view axis, before a corner of its image; nothing is drawn "
+               "beyond.";
+    }
+    if (narrowest_ < 90) {
+        return "A lens of " + path + " shows " + three_digits(narrowest_) +
+               " degrees from the view axis to the corner of its image, less than a tenth of what "
+               "a pinhole shows there; its coefficients may be in other units.";
+    }
+    return "";
 }
 
 } // namespace degs

@@ -38,11 +38,13 @@ class LensNote {
 public:
     /// Counts the lens of a camera whose size and principal point are set.
     void add(const Camera& camera);
-    /// A full sentence for lenses that fold before a corner of their image; empty if none does.
+    /// A full sentence for lenses that fold before a corner of their image, or else for those that
+    /// show next to nothing; empty if there are none.
     std::string text(const std::string& path) const;
 
 private:
-    double fold_ = 90; ///< degrees from the view axis, the least that lies before a corner
+    double fold_ = 90;      ///< degrees from the view axis, the least that lies before a corner
+    double narrowest_ = 90; ///< degrees from the view axis to a corner, the least that is shown
 };
 
 } // namespace degs

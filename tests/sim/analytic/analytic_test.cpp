@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs run --fidelity analytic: near the simulation, inside its bounds, and following the design.
+#include <set>
+
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -31,6 +33,32 @@ std::vector<std::string> analytic_view_and(const std::vector<std::string>& more)
     std::vector<std::string> all = kAnalyticView;
     all.insert(all.end(), more.begin(), more.end());
     return all;
+}
+
+// The folder has the documents of the last command alone: an estimate has no image, and a report
+// no estimate.
+TEST(AnalyticFiles, ReplaceThoseOfARunAndTheOtherWayRound) {
+    const Folder folder;
+    const auto files_after = [&folder](const std::string& command, const std::string& fidelity) {
+        std::vector<std::string> words{command, "--scene", "synthetic:single", "--width",
+                                       "32",    "--out",   folder / "out"};
+        if (command == "run") {
+            words.insert(words.begin() + 1, config("degs-16"));
+            words.insert(words.end(), {"--no-cache", "--fidelity", fidelity});
+        }
+        expect_success(degs(words));
+        std::set<std::string> names;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder / "out")) {
+            names.insert(entry.path().filename().string());
+        }
+        return names;
+    };
+    using Names = std::set<std::string>;
+    EXPECT_EQ(files_after("run", "exact"), (Names{"image.exr", "image.png", "report.json"}));
+    EXPECT_EQ(files_after("run", "analytic"), Names{"analytic.json"});
+    EXPECT_EQ(files_after("run", "exact"), (Names{"image.exr", "image.png", "report.json"}));
+    EXPECT_EQ(files_after("run", "analytic"), Names{"analytic.json"});
+    EXPECT_EQ(files_after("render", ""), (Names{"image.exr", "image.png", "render.json"}));
 }
 
 class Analytic : public testing::TestWithParam<std::string> {};
@@ -73,6 +101,14 @@ TEST_P(Analytic, IsTheSameEveryTime) {
     first.erase("host");
     second.erase("host");
     EXPECT_EQ(first, second);
+}
+
+TEST_P(Analytic, CostsWhatTheSimulatedDesignCosts) {
+    const json area = analytic_of(analytic_config(GetParam()), kAnalyticView)["area"];
+    const Outcome printed =
+        degs({"config", analytic_config(GetParam()), "--cost", "--format", "json"});
+    expect_success(printed);
+    EXPECT_EQ(area, json::parse(printed.out)["area"]);
 }
 
 // A bus of 2 GB/s moves two bytes per cycle, which then takes longer than everything else.

@@ -169,6 +169,19 @@ TEST(SlotsPlot, BarsAreAsLongAsTheirFrames) {
     }
 }
 
+// A share is written with one decimal, or not at all where that does not fit.
+TEST(SlotsPlot, RoundsNoShareToAWholePercent) {
+    for (const double share : {0.059, 0.0996, 0.096, 0.5}) {
+        for (const double end_ms : {1.0, 1.5, 2.0, 2.5, 3.0}) {
+            const SlotBar bar{"a", "", {share, 1 - share, 0, 0, 0, 0, 0, 0}, 0, 1, end_ms};
+            const std::string svg = slots_svg("T", {{"v", {bar}}});
+            const auto whole = std::to_string(std::lround(100 * share));
+            EXPECT_THAT(svg, ::testing::Not(HasSubstr(">" + whole + "<")))
+                << share << " " << end_ms;
+        }
+    }
+}
+
 TEST(SlotsPlot, StaysInsideThePage) {
     const std::string longest(200, 'w');
     const std::string svg = slots_svg("T", {{longest, {{longest, longest, kShares, 0, 1, 1}}}});

@@ -191,6 +191,18 @@ TEST(SmallRunReport, DoublePrecisionCountsAndPaintsLikeTheReference) {
     }
 }
 
+// ORANGE's PEs are multipliers, of which a fragment takes the depth of the product of matrices: the
+// six coefficients of the exponent, a polynomial of second degree.
+TEST(SmallRunReport, FragmentsOfOrangeTakeSixMultiplications) {
+    const json report = reported_run({"--set", "pipeline.numbers=fp64"}, "orange-o1",
+                                     "synthetic:needles,gaussians=300")
+                            .report;
+    EXPECT_EQ(report["slots"]["useful"].get<double>(),
+              6 * report["workload"]["fragments"].get<double>());
+    const std::string page = read_file(std::string(DEGS_CONFIGS) + "/../docs/report.md");
+    EXPECT_NE(page.find("`useful` is six times"), std::string::npos);
+}
+
 TEST(SmallRunReport, ExactAndStrictAgreeToTheByte) {
     for (const char* name : {"degs-64", "degs-64-tuned"}) {
         const ReportedRun exact = reported_run({}, name);

@@ -39,6 +39,73 @@ TEST(SmallRunWarnings, NameTheFormatThatSaturates) {
     EXPECT_NE(std::find(warnings.begin(), warnings.end(), sentence), warnings.end()) << warnings;
 }
 
+/// The stages that a run without a reference says to saturate.
+std::vector<std::string> saturated_in(const std::string& design, const std::string& scene,
+                                      const std::vector<std::string>& sets = {}) {
+    const Folder folder;
+    std::vector<std::string> words{"run",     config(design), "--scene",    scene,
+                                   "--width", "64",           "--no-cache", "--no-reference",
+                                   "--out",   folder / "out"};
+    for (const std::string& set : sets) {
+        words.insert(words.end(), {"--set", set});
+    }
+    const Outcome outcome = degs(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::vector<std::string> stages;
+    const auto warnings = report_in(folder / "out").at("warnings");
+    for (const auto& warning : warnings) {
+        std::istringstream text(warning.get<std::string>());
+        std::string word, stage, saturates;
+        if (text >> word >> stage >> saturates && saturates == "saturates:") {
+            EXPECT_NE(warning.get<std::string>().find("pipeline.formats." + stage + " sets"),
+                      std::string::npos);
+            stages.push_back(stage);
+        }
+    }
+    return stages;
+}
+
+using Stages = std::vector<std::string>;
+
+// A colour of 100 fits into the record of `tuned`, which ends at 128, and into nothing behind it:
+// weights and sums end at 64.
+TEST(SmallRunWarnings, NameWhatSaturatesBehindTheRecord) {
+    const Folder folder;
+    std::vector<Splat> splats(1);
+    splats[0].mean = {0, 0, 5};
+    splats[0].colour = {(100 - 0.5F) / 0.28209479F, 0, 0};
+    write_ply(folder / "bright.ply", splats);
+    write_camera(folder / "cameras.json", {0, 0, 0});
+    EXPECT_EQ(saturated_in("degs-64-tuned", folder / "bright.ply"), (Stages{"weight", "sum"}));
+    EXPECT_EQ(saturated_in("degs-64", folder / "bright.ply"), Stages{});
+    EXPECT_EQ(saturated_in("degs-64", folder / "bright.ply",
+                           {"pipeline.numbers=fp32", "pipeline.formats.sum=uq6.16"}),
+              Stages{"sum"});
+    EXPECT_EQ(saturated_in("gscore-64", folder / "bright.ply", {"pipeline.numbers=tuned"}),
+              (Stages{"weight", "sum"}));
+}
+
+TEST(SmallRunWarnings, NameEveryStageThatSaturates) {
+    const std::string scene = "synthetic:object,gaussians=300";
+    const std::pair<const char*, const char*> formats[] = {
+        {"distance", "q2.12"}, {"edge", "q4.12"}, {"g0", "uq2.13"},
+        {"d0", "e4m11b19"},    {"term", "q1.13"}, {"weight", "uq0.2"}};
+    for (const auto& [stage, format] : formats) {
+        const Stages found = saturated_in(
+            "degs-64-tuned", scene, {std::string("pipeline.formats.") + stage + "=" + format});
+        EXPECT_EQ(found, Stages{stage}) << format;
+    }
+}
+
+TEST(SmallRunWarnings, SayNothingOfOrdinaryScenes) {
+    for (const char* design : {"degs-64", "degs-64-tuned", "gbu-64", "orange-o1"}) {
+        for (const char* scene : {"synthetic:object,gaussians=900",
+                                  "synthetic:needles,gaussians=300", "synthetic:single"}) {
+            EXPECT_EQ(saturated_in(design, scene), Stages{}) << design << " " << scene;
+        }
+    }
+}
+
 TEST(NearPlaneWarnings, TellOfTheFrameThatLosesMost) {
     std::vector<FrameWorkload> frames(3);
     const std::uint64_t lost[] = {2, 7, 0};

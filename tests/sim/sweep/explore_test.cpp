@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs explore: fronts by hand, and a search against all points of a small study.
+#include <iterator>
+#include <map>
+#include <set>
+
 #include "sim/search/search.hpp"
 #include "tests/sim/process/child.hpp"
+#include "tests/sim/process/csv_rows.hpp"
 
 namespace degs::sim_test {
 namespace {
@@ -72,15 +77,20 @@ std::vector<std::string> csv_rows(const std::string& text) {
     return lines;
 }
 
+std::vector<std::string> csv_cells(const std::string& line) {
+    std::istringstream cells(line);
+    std::vector<std::string> row;
+    for (std::string cell; std::getline(cells, cell, ',');) {
+        row.push_back(cell);
+    }
+    return row;
+}
+
 /// The designs of front.csv that are on the front.
 std::vector<Goals> front_in(const std::string& folder) {
     std::vector<Goals> front;
     for (const std::string& line : csv_rows(read_file(folder + "/front.csv"))) {
-        std::istringstream cells(line);
-        std::vector<std::string> row;
-        for (std::string cell; std::getline(cells, cell, ',');) {
-            row.push_back(cell);
-        }
+        const std::vector<std::string> row = csv_cells(line);
         if (row.size() == 9 && row[6] == "1") { // design, three keys, two goals, on_front, ...
             front.push_back({std::stod(row[4]), std::stod(row[5])});
         }
@@ -159,6 +169,74 @@ TEST(Explore, RefusesWhatItCannotSearch) {
     refuses("area_mm2,fsp", "did you mean 'fps'? 'degs");
 }
 
+/// The cells of a table's column in a text: of the lines below the one that begins with `first`.
+std::vector<std::string> column_below(const std::string& text, const std::string& first,
+                                      std::size_t from_right) {
+    std::vector<std::string> cells;
+    std::istringstream stream(text);
+    bool inside = false;
+    for (std::string line; std::getline(stream, line);) {
+        std::istringstream words(line);
+        std::vector<std::string> row{std::istream_iterator<std::string>(words), {}};
+        if (inside && row.size() > from_right) {
+            cells.push_back(row[row.size() - 1 - from_right]);
+        }
+        inside = line.rfind(first + " ", 0) == 0 || (inside && !row.empty());
+    }
+    return cells;
+}
+
+// Areas of 10 000 and some hundredths are one number of three digits; of designs that differ, the
+// tables show in what they do.
+TEST(Explore, TablesTellDesignsApart) {
+    const Folder folder;
+    const std::string file = eight_designs(folder);
+    const std::vector<std::string> options{"--goals", "min:area_mm2+10000,cycles", "--rungs", "1"};
+    const Outcome searched = explore(file, folder / "out", options);
+    EXPECT_EQ(searched.code, 0) << searched.err;
+    std::set<std::string> areas; // of the front and the baseline, as front.csv has them
+    for (const CsvRow& row : rows_by_heading(read_file(folder / "out/front.csv"))) {
+        if (row.at("on_front") == "1" || row.at("baseline") == "1") {
+            areas.insert(row.at("area_mm2+10000"));
+        }
+    }
+    ASSERT_GE(areas.size(), 2U);
+    const auto shown = column_below(searched.out, "front", 1);
+    EXPECT_EQ((std::set<std::string>{shown.begin(), shown.end()}.size()), areas.size())
+        << searched.out;
+}
+
+// What a limit is about is beside the goals, in the table as in front.csv: the least of the ratios
+// of the views is not the ratio of the slowest views.
+TEST(Explore, ShowsWhatLimitsAreAbout) {
+    const Folder folder;
+    const Outcome searched =
+        explore(space(folder, "width: 64\n"), folder / "out",
+                {"--rungs", "1", "--limits", "worst(ratio.latency)>=0.98,area_mm2<=9"});
+    EXPECT_EQ(searched.code, 0) << searched.err;
+    EXPECT_NE(searched.out.find("worst(ratio.latency)\n"), std::string::npos) << searched.out;
+    const std::string front = read_file(folder / "out/front.csv");
+    EXPECT_EQ(csv_rows(front)[0],
+              "design,span.count,array.pes_per_bank,packing.bytes,area_mm2,latency_ms,"
+              "worst(ratio.latency),on_front,baseline,fidelity,within");
+    const auto design = [](const CsvRow& row) {
+        return row.at("span.count") + "," + row.at("array.pes_per_bank") + "," +
+               row.at("packing.bytes");
+    };
+    std::map<std::string, double> least; // of the views
+    for (const CsvRow& row : rows_by_heading(read_file(folder / "out/results.csv"))) {
+        const double ratio = std::stod(row.at("ratio.latency"));
+        const auto known = least.emplace(design(row), ratio).first;
+        known->second = std::min(known->second, ratio);
+    }
+    EXPECT_EQ(least.size(), 24U);
+    for (const CsvRow& row : rows_by_heading(front)) {
+        const double shown = std::stod(row.at("worst(ratio.latency)"));
+        EXPECT_DOUBLE_EQ(shown, least.at(design(row)));
+        EXPECT_EQ(row.at("within") == "yes", shown >= 0.98) << design(row);
+    }
+}
+
 // What is good when it is large gives the front of what is good when it is small.
 TEST(Explore, MakesGoalsLargeWhereThatIsBetter) {
     const Folder folder;
@@ -167,11 +245,7 @@ TEST(Explore, MakesGoalsLargeWhereThatIsBetter) {
         EXPECT_EQ(explore(file, folder / out, {"--goals", goals, "--rungs", "1"}).code, 0);
         std::vector<std::string> designs;
         for (const std::string& line : csv_rows(read_file(folder / (out + "/front.csv")))) {
-            std::vector<std::string> row;
-            std::istringstream cells(line);
-            for (std::string cell; std::getline(cells, cell, ',');) {
-                row.push_back(cell);
-            }
+            const std::vector<std::string> row = csv_cells(line);
             if (row.size() == 9 && row[6] == "1") {
                 designs.push_back(row[1] + " " + row[2] + " " + row[3]);
             }
