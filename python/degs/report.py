@@ -33,6 +33,8 @@ class Node:
         return self._get(name)
 
     def __getitem__(self, path: str) -> Any:
+        if not isinstance(path, str):
+            raise Missing(f"A part has a name, as in report['timing.cycles'], and {path!r} is none.")
         value: Any = self
         names = path.split(".")
         for index, name in enumerate(names):
@@ -178,6 +180,10 @@ def run(design: Union[Design, PathLike], scene: Optional[PathLike] = None, *, ca
     return Report(values, png, None if out is None else folder, lines)
 
 
+FLAGS = ("no_reference", "no_cache", "array_only", "quick", "equal_area", "explain", "list", "collect", "slurm")
+"""Options that are there or not."""
+
+
 def options_of(**options: Any) -> List[str]:
     """The options of a command: None and False are left out, lists repeat the option."""
     words: List[str] = []
@@ -186,6 +192,8 @@ def options_of(**options: Any) -> List[str]:
             continue
         option = f"--{name.replace('_', '-')}"
         if value is True:
+            if name not in FLAGS:
+                raise Error(f"{name} is True, but needs a value.")
             words.append(option)
             continue
         for each in value if isinstance(value, (list, tuple)) else [value]:

@@ -65,7 +65,7 @@ TEST_P(KilledSweep, LeavesResultsOfTheStudyThatTheFolderNames) {
     ::waitpid(child, nullptr, 0);
     const std::string found = study_of_results(out);
     EXPECT_TRUE(found.empty() || found == name_in(out)) << found << " beside " << name_in(out);
-    // Of the table, the files of the other study may be gone in part, but none may be left over.
+    // A kill may remove some files of the other study, but leaves none beside the new name.
     std::istringstream table(read_file(out + "/results.csv"));
     std::string head, row;
     std::getline(table, head);
