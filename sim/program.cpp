@@ -5,6 +5,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <sys/resource.h>
 #include <systemc>
 
 #include "base/visible_text.hpp"
@@ -45,6 +46,18 @@ void parse(CLI::App& program, int argc, char* argv[]) {
         program.parse(argc, argv);
     } catch (const CLI::Success& question) {
         print(answer(program, question));
+    }
+}
+
+/// Libraries that are called rely on some; a program that has too little is ended without a word.
+void require_stack() {
+    constexpr rlim_t kLeast = rlim_t{256} << 10U;
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur < kLeast) {
+        throw FailureError(
+            {kUserError, "The stack may have " + std::to_string(limit.rlim_cur >> 10U) +
+                             " KB here, and at least " + std::to_string(kLeast >> 10U) +
+                             " KB are needed; 'ulimit -s' sets the limit."});
     }
 }
 
@@ -101,6 +114,7 @@ CLI::Option* add_addressed_overrides_option(CLI::App& command,
 int run_program(int argc, char* argv[]) {
     CLI::App program("SystemC/TLM model of the DeGS accelerator for 3D Gaussian Splatting", "degs");
     try {
+        require_stack();
         announce_interruption();
         quieten_kernel();
         add_commands(program);

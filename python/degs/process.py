@@ -109,6 +109,9 @@ def call(arguments: Sequence[str], progress: Optional[bool] = None, warn: bool =
     unless `warn` is false. Raises Error with the program's sentence. An interrupt ends the program, too; its folder
     then holds what had finished."""
     command = [program(), *arguments]
+    for word in command:
+        if "\0" in word:
+            raise Error(f"A name or value cannot hold a zero, as {word!r} does.", command=command)
     environment = {**os.environ, "LC_ALL": "C.UTF-8"}
     with tempfile.TemporaryFile("w+", encoding="utf-8") as printed:
         try:

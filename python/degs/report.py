@@ -35,6 +35,8 @@ class Node:
         return self._get(name)
 
     def __getitem__(self, path: str) -> Any:
+        if not isinstance(path, str):
+            raise Missing(f"A part has a name, as in report['timing.cycles'], and {path!r} is none.")
         value: Any = self
         names = path.split(".")
         for index, name in enumerate(names):
@@ -195,6 +197,10 @@ def changed(design: Design, keys: Optional[Mapping[str, Any]], top_keys: Mapping
         raise
 
 
+FLAGS = ("no_reference", "no_cache", "array_only", "quick", "equal_area", "explain", "list", "collect", "slurm")
+"""Options that are there or not."""
+
+
 def options_of(**options: Any) -> List[str]:
     """The options of a command: None and False are left out, lists repeat the option."""
     words: List[str] = []
@@ -203,6 +209,8 @@ def options_of(**options: Any) -> List[str]:
             continue
         option = f"--{name.replace('_', '-')}"
         if value is True:
+            if name not in FLAGS:
+                raise Error(f"{name} is True, but needs a value.")
             words.append(option)
             continue
         for each in value if isinstance(value, (list, tuple)) else [value]:

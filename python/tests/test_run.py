@@ -120,6 +120,25 @@ def test_a_mistake_is_one_sentence(arguments, sentence):
     assert caught.value.__cause__ is None and caught.value.command[0] == degs.program()
 
 
+@pytest.mark.parametrize("arguments, sentence", [
+    ({"width": True}, "width is True, but needs a value."),
+    ({"camera": True}, "camera is True, but needs a value."),
+    ({"seed": True}, "seed is True, but needs a value."),
+    ({"scene": "a\0b.ply"}, "cannot hold a zero"),
+    ({"keys": {"span.count": "1\0"}}, ""),
+    ({"camera_file": "\0"}, "cannot hold a zero"),
+])
+def test_what_no_command_line_holds_is_refused(arguments, sentence):
+    with pytest.raises(degs.Error, match=sentence):
+        degs.run("degs-64", **{"scene": SCENE, "width": 64, **arguments})
+
+
+@pytest.mark.parametrize("path", [0, None, 1.5, ("timing", "cycles"), slice(2)])
+def test_parts_have_names(kept, path):
+    with pytest.raises(degs.Missing, match="A part has a name"):
+        kept[0][path]
+
+
 def test_threads_run_at_once():
     widths = [32, 48, 64, 80]
     with ThreadPoolExecutor(4) as pool:

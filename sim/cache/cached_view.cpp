@@ -34,6 +34,7 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
         dynamic_ = path.frames > 1 ? std::move(dynamic) : nullptr;
     }
     key_ = cache_.scene_key(request_.scene, request_.camera_file);
+    watch_.require_unchanged();
     if (std::optional<SceneCard> card = cache_.scene(key_)) {
         facts_ = card->facts;
         facts_.name = scene_name(request_.scene);

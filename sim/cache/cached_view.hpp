@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "config/input_files.hpp"
 #include "sim/cache/frame_cache.hpp"
 #include "sim/simulation/foveated_image.hpp"
 #include "sim/simulation/view.hpp"
@@ -65,6 +66,7 @@ private:
     /// The key in the cache of the scene as frame `k` shows it.
     std::string frame_key(std::size_t k) const;
 
+    InputWatch watch_; ///< from the key of the scene on
     ViewRequest request_;
     FrameCache cache_;
     std::string key_;                       ///< of the scene

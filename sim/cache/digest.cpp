@@ -46,6 +46,7 @@ void Digest::add_file(const std::string& name) {
     std::error_code error;
     if (std::filesystem::is_regular_file(name, error)) { // others may block, or never end
         remember_input(name);
+        watch_input(name);
         std::ifstream file(name, std::ios::binary);
         std::vector<char> block(kBlock);
         while (file) {

@@ -70,8 +70,13 @@ bool TraceReader::next(TraceAccess& access) {
 }
 
 bool TraceReader::fill() {
-    used_ = 0;
+    const bool first = file_.position() == 0;
     filled_ = file_.read_some(block_.data(), block_.size());
+    const bool marked =
+        first &&
+        std::string_view(block_.data(), filled_).substr(0, kByteOrderMark.size()) == kByteOrderMark;
+    used_ = marked ? kByteOrderMark.size() : 0;
+    watch_.require_unchanged();
     return filled_ != 0;
 }
 

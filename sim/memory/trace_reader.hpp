@@ -46,6 +46,7 @@ private:
     void check_request();
     [[noreturn]] void fail(const std::string& reason) const;
 
+    InputWatch watch_; ///< the trace is read twice
     InputFile file_;
     std::uint64_t capacity_;
     std::array<char, 65536> block_{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/ratio.hpp"
 #include "degs/error.hpp"
@@ -36,8 +37,10 @@ int checked_count(double frames, const std::optional<int>& most) {
 std::vector<Pose> sampled(const std::vector<Pose>& poses, double hz,
                           const std::optional<int>& most) {
     const double seconds = poses.back().time_s - poses.front().time_s;
-    constexpr double kSlack = 1e-9; // of the last date
-    const int count = checked_count(std::floor(seconds * hz + kSlack) + 1, most);
+    constexpr double kSlack = 1e-9; // of the last date, beside what its number resolves
+    const double resolved = 2 * std::numeric_limits<double>::epsilon() *
+                            std::max(std::abs(poses.front().time_s), std::abs(poses.back().time_s));
+    const int count = checked_count(std::floor((seconds + resolved) * hz + kSlack) + 1, most);
     std::vector<Pose> views;
     views.reserve(count);
     for (int k = 0; k < count; ++k) {

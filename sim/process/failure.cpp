@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <new>
+#include <stdexcept>
+#include <system_error>
 
 #include <systemc>
 
@@ -22,6 +24,15 @@ Failure failure_of(const std::exception_ptr& error) {
     } catch (const sc_core::sc_report& report) {
         return {kInternalError, std::string("The simulation kernel failed: ") +
                                     report.get_msg_type() + ": " + report.get_msg() + "."};
+    } catch (const std::system_error& lack) {
+        const bool limit = lack.code() == std::errc::resource_unavailable_try_again ||
+                           lack.code() == std::errc::not_enough_memory; // for a thread
+        return {kInternalError,
+                limit ? std::string("The system has nothing left for this program (") +
+                            lack.what() + "); 'ulimit' shows its limits."
+                      : std::string("Internal error: ") + lack.what() + "."};
+    } catch (const std::length_error&) {
+        return {kInternalError, "There is not enough memory for a scene or an image of this size."};
     } catch (const std::exception& broken) {
         return {kInternalError, std::string("Internal error: ") + broken.what() + "."};
     } catch (...) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -11,7 +12,8 @@ class Stopwatch {
 public:
     double seconds() const { return seconds_to(std::chrono::steady_clock::now()); }
     double seconds_to(std::chrono::steady_clock::time_point date) const {
-        return std::chrono::duration<double>(date - start_).count();
+        // Clocks are steady by the book; those of virtual machines and test beds can be set back.
+        return std::max(0.0, std::chrono::duration<double>(date - start_).count());
     }
 
 private:
@@ -25,7 +27,7 @@ public:
     CpuStopwatch() : CpuStopwatch(CLOCK_PROCESS_CPUTIME_ID) {}
     /// What the thread that asks has computed.
     static CpuStopwatch of_this_thread() { return CpuStopwatch(CLOCK_THREAD_CPUTIME_ID); }
-    double seconds() const { return now() - start_; }
+    double seconds() const { return std::max(0.0, now() - start_); }
 
 private:
     explicit CpuStopwatch(clockid_t clock) : clock_(clock) {}

@@ -2,10 +2,13 @@
 #include "sim/results/result_words.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "base/json_text.hpp"
 #include "base/number_json.hpp"
+#include "base/visible_text.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -91,7 +94,30 @@ ordered_json view_json(const ComparedView& view) {
     return json;
 }
 
-std::string csv_cell(const std::string& text) {
+namespace {
+
+/// Tables begin to calculate at these characters, of which a number may have a sign.
+bool is_formula(const std::string& text) {
+    if (text.empty() || std::string_view("=+-@").find(text.front()) == std::string_view::npos) {
+        return false;
+    }
+    double number = 0;
+    const char* const begin = text.data() + (text.front() == '+' ? 1 : 0);
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(begin, end, number);
+    return error == std::errc::invalid_argument || rest != end;
+}
+
+} // namespace
+
+std::string csv_cell(const std::string& given) {
+    std::string text = is_formula(given) ? "'" : "";
+    for (std::size_t at = 0;
+         at < given.size();) { // line ends of both kinds are what quotes are for
+        const std::size_t end = std::min(given.find("\r\n", at), given.size());
+        text += visible_lines(given.substr(at, end - at)) + (end < given.size() ? "\r\n" : "");
+        at = end + 2;
+    }
     if (text.find_first_of(",\"\r\n") == std::string::npos) {
         return text;
     }

@@ -41,7 +41,9 @@ bool any_sampled(const std::vector<ComparisonRow>& rows);
 std::string sampling_headings();
 std::string sampling_cells(const ComparisonRow& row);
 
-/// Quoted if it must be, with quotes doubled (RFC 4180).
+/// Quoted if it must be, with quotes doubled (RFC 4180), and with an apostrophe in front of what
+/// programs for tables would calculate. Characters that do things to a terminal are written as
+/// their codes.
 std::string csv_cell(const std::string& text);
 /// As number_json(), but empty if it does not exist.
 std::string csv_number(const std::optional<double>& value);

@@ -73,7 +73,8 @@ std::string namesake_of(const std::string& file) {
 /// drawn with the cameras of another one, or another scene with its.
 bool stays_as_it_is(const std::string& file, const std::string& own,
                     const std::vector<Camera>& cameras) {
-    if (!fs::exists(own)) {
+    std::error_code error; // a name with the ending of such files may be too long
+    if (!fs::exists(own, error)) {
         return false;
     }
     if (cameras.empty()) {

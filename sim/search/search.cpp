@@ -90,7 +90,8 @@ std::optional<Rung> run_step(const StudyPlan& plan, const Step& step, SearchPart
     StudyPlan part = part_of(plan, step.variants, step.change);
     part.request.reference =
         part.request.reference && (step.change.divisor == 1 || judges_images(plan.aims));
-    const PointStore store(step.folder.empty() ? out : out + "/" + step.folder, part);
+    const PointStore store(step.folder.empty() ? out : out + "/" + step.folder, part,
+                           Steps::Several);
     SweepSession session(part, store, mine.own_points(part, store, step.folder));
     const bool complete = session.run();
     failure = session.failure();

@@ -11,6 +11,7 @@
 #include "base/json_text.hpp"
 #include "config/input_files.hpp"
 #include "degs/error.hpp"
+#include "scene/files/input_file.hpp"
 #include "scene/files/output_file.hpp"
 
 namespace degs::sim {
@@ -35,8 +36,8 @@ bool same_output(const std::string& a, const std::string& b) {
         return true;
     }
     std::error_code error;
-    return fs::weakly_canonical(fs::absolute(a), error) ==
-           fs::weakly_canonical(fs::absolute(b), error);
+    return fs::weakly_canonical(absolute_path(a), error) ==
+           fs::weakly_canonical(absolute_path(b), error);
 }
 
 } // namespace
@@ -100,7 +101,7 @@ void OutputFolder::write_text(const std::string& file, const std::string& text) 
         out << text;
         out.close();
         if (!out) {
-            fail_folder(folder_, "writing '" + file + "' failed, the disk may be full");
+            fail_folder(folder_, "writing '" + file + "' failed, " + why_unwritten());
         }
     });
 }

@@ -88,10 +88,11 @@ bool is_sound(const Camera& camera) {
 
 SplatLimits::SplatLimits(const ProjectionOptions& options) {
     constexpr double kRounding = 1e-6;
-    // Narrow formats round Q_th by up to a half of it, and the opacity then follows from Q_th.
+    // Narrow formats round Q_th by up to a half of it, and the opacity then follows from Q_th and
+    // from what a cut takes away of it.
     const bool exact = options.numbers.is_reference();
     most_q = (exact ? 1.0 : 1.5) * options.cut + kRounding;
-    most_opacity = exact ? 1 + kRounding : options.alpha_min * std::exp(most_q / 2);
+    most_opacity = exact ? 1 + kRounding : options.alpha_min * std::exp(0.75 * kNoCut + kRounding);
 }
 
 bool is_sound(const ProjectedSplat& s, const SplatLimits& limits) {

@@ -12,6 +12,7 @@
 #include "degs/error.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/process/stopwatch.hpp"
+#include "sim/simulation/frame_checks.hpp"
 #include "sim/text/comma_parts.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
@@ -166,6 +167,10 @@ ImageSize image_size(const std::string& text) {
         if ((*sides)[0] < 1 || (*sides)[1] < 1) {
             throw InputError("The resolution '" + text +
                              "' is no image; both sides must be at least 1 pixel.");
+        }
+        if (std::max((*sides)[0], (*sides)[1]) > kMostCameraSide) {
+            throw InputError("The resolution '" + text + "' is too large; a side may have " +
+                             std::to_string(kMostCameraSide) + " pixels.");
         }
         return {(*sides)[0], (*sides)[1]};
     }

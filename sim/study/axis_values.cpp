@@ -32,7 +32,7 @@ std::optional<Span> span_of(const ConfigNode& node) {
     const std::string& text = node.text;
     const std::size_t dots = text.find("..");
     const bool number = text.find_first_of("-x0123456789") == 0;
-    if (node.kind != Kind::kScalar || node.quoted || dots == std::string::npos || !number) {
+    if (node.kind != Kind::kScalar || dots == std::string::npos || !number) {
         return {};
     }
     const std::size_t space = std::min(text.find(' ', dots), text.size());

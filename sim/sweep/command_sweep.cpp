@@ -161,10 +161,15 @@ std::string missing_words(const SweepResults& results, const OutputFolder& folde
     return text + "; 'degs sweep' without --collect runs them.";
 }
 
+void publish(const StudyPlan& plan, const SweepResults& results, const PointStore& store) {
+    store.require_own();
+    write_results(plan, results, store.folder());
+}
+
 /// Results of all points, whoever ran them. Throws FailureError if some are missing or failed.
 void collect(const SweepOptions& options, const StudyPlan& plan, const PointStore& store) {
     const SweepResults results = read_results(plan, store);
-    write_results(plan, results, store.folder());
+    publish(plan, results, store);
     if (results.missing == 0) {
         store.sweep_up();
     }
@@ -203,7 +208,7 @@ void run(const SweepOptions& options) {
     Stopwatch since_results;
     const auto write = [&] {
         if (whole && since_results.seconds() > kSecondsBetweenResults) {
-            write_results(plan, read_results(plan, store), store.folder());
+            publish(plan, read_results(plan, store), store);
             since_results = Stopwatch();
         }
     };
@@ -211,7 +216,7 @@ void run(const SweepOptions& options) {
     const bool complete = session.run();
     if (whole) {
         const SweepResults results = read_results(plan, store);
-        write_results(plan, results, store.folder());
+        publish(plan, results, store);
         if (complete) {
             store.sweep_up();
             print(results_text(plan, results) + ranking_of(options, plan, results) +

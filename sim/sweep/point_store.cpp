@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sweep/point_store.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -34,8 +37,14 @@ constexpr const char* kReportFile = ".json";
 constexpr const char* kReportOfPath = "-path.json";
 constexpr const char* kChecksumWord = "checksum ";
 
-/// Empty if there is no such file.
+/// Empty if there is no such file. InputError for what may block or never end.
 std::optional<std::string> read_whole(const std::string& path) {
+    std::error_code none;
+    const fs::file_status status = fs::status(path, none);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        throw InputError(path + ": this is not a regular file, as those in the folder of a study "
+                                "are; remove it, or choose another folder with --out.");
+    }
     std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();
@@ -80,14 +89,67 @@ std::string checked(const std::string& folder) {
     return folder;
 }
 
-/// The folder for points, after the one around it says which study it is of: processes that start
-/// together must not take each other for a folder of another kind.
-std::string begun(const OutputFolder& folder, const StudyPlan& plan) {
-    const ordered_json state = state_of(plan);
-    if (read_whole(folder.path(kState)) != json_text(state)) {
-        folder.write_json(kState, state);
+/// Whether a file has the name of a report.
+bool is_report(const std::string& file) {
+    const std::size_t digits = std::min(file.find_first_not_of("0123456789"), file.size());
+    const std::string ending = file.substr(digits);
+    return digits >= 6 && (ending == kReportFile || ending == kReportOfPath);
+}
+
+/// Before the folder says that it is of another study.
+void remove_results(const OutputFolder& folder) {
+    std::error_code none;
+    std::vector<fs::path> old;
+    for (const std::string& file : sweep_files()) {
+        old.emplace_back(folder.path(file));
     }
-    return folder.path("points");
+    const std::vector<std::string> of_search = search_files();
+    const bool searched = fs::exists(folder.path(of_search.front()), none); // else the user's
+    for (std::size_t k = 0; searched && k < of_search.size(); ++k) {
+        old.emplace_back(folder.path(of_search[k]));
+    }
+    for (const auto& file : fs::directory_iterator(folder.path("reports"), none)) {
+        if (is_report(file.path().filename().string())) {
+            old.push_back(file.path());
+        }
+    }
+    for (const fs::path& file : old) {
+        if (!fs::is_directory(file, none)) {
+            fs::remove(file, none);
+        }
+    }
+}
+
+/// Makes the folder one of this study, and returns what it says then. Of a killed sweep, processes
+/// may be left for a moment.
+std::string begun(const OutputFolder& folder, const StudyPlan& plan, FolderLock& lock,
+                  Steps steps) {
+    constexpr int kMostTries = 20;
+    constexpr std::chrono::milliseconds kPause(50);
+    const std::string name = folder.path(kState);
+    std::string state = json_text(state_of(plan));
+    if (steps == Steps::Several) {
+        lock.share();
+        if (read_whole(name) != state) {
+            folder.write_text(kState, state);
+        }
+        return state;
+    }
+    for (int k = 0; k < kMostTries && read_whole(name) != state; ++k) {
+        if (lock.take_alone()) {
+            if (read_whole(name) != state) {
+                remove_results(folder);
+                folder.write_text(kState, state);
+            }
+            break;
+        }
+        std::this_thread::sleep_for(kPause);
+    }
+    lock.share();
+    if (read_whole(name) != state) {
+        refuse(folder.path(""), "is in use for another study");
+    }
+    return state;
 }
 
 /// The line that ends a file of the store.
@@ -137,11 +199,18 @@ void each_part(Fields& fields, Text& frame, Text& path) {
 
 } // namespace
 
-PointStore::PointStore(const std::string& folder, const StudyPlan& plan)
-    : folder_(checked(folder), sweep_files()), points_(begun(folder_, plan), {}),
+PointStore::PointStore(const std::string& folder, const StudyPlan& plan, Steps steps)
+    : folder_(checked(folder), sweep_files()), lock_(folder),
+      state_(begun(folder_, plan, lock_, steps)), points_(folder_.path("points"), {}),
       reports_(folder_.path("reports"), {}) {
     for (const StudyPoint& point : plan.points) {
         keys_.push_back(point.key);
+    }
+}
+
+void PointStore::require_own() const {
+    if (read_whole(folder_.path(kState)) != state_) {
+        refuse(folder_.path(""), "is of another study by now");
     }
 }
 

@@ -170,6 +170,7 @@ StudyPlan plan_views(const Study& study) {
     plan.request.sampling = study.sampling;
     plan.views = views_of(plan.request);
     plan.aims = aims_of(study);
+    plan.watch = std::make_shared<InputWatch>();
     plan.scene_digests = digests_of_scenes(plan.request);
     return plan;
 }

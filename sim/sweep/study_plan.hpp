@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "config/input_files.hpp"
 #include "sim/goals/goals.hpp"
 #include "sim/study/compare_request.hpp"
 #include "sim/study/study_file.hpp"
@@ -57,6 +59,7 @@ struct StudyPlan {
     std::vector<StudyView> views;
     std::vector<StudyPoint> points;         ///< views in the outer, variants in the inner loop
     std::vector<std::string> scene_digests; ///< with their cameras
+    std::shared_ptr<InputWatch> watch;      ///< since the digests of the scenes
     std::string digest;                     ///< of all points, 32 hexadecimal digits
 };
 

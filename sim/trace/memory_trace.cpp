@@ -110,7 +110,7 @@ void write_memory_trace(const std::string& file, const std::string& design, doub
         trace.close();
         out.close();
         if (!out) {
-            fail_file(file, "writing failed; the disk may be full.");
+            fail_file(file, "writing failed; " + why_unwritten() + ".");
         }
     });
 }

@@ -304,7 +304,7 @@ void write_text(const std::string& path, const std::string& text) {
         out << text;
         out.close();
         if (!out) {
-            throw InputError("The file '" + path + "' cannot be written: the disk may be full.");
+            throw InputError("The file '" + path + "' cannot be written: " + why_unwritten() + ".");
         }
     });
 }

@@ -75,7 +75,7 @@ void write_bytes(const std::string& path, const std::string& bytes) {
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         out.close();
         if (!out) {
-            fail_file(path, "writing failed; the disk may be full.");
+            fail_file(path, "writing failed; " + why_unwritten() + ".");
         }
     });
 }

@@ -65,7 +65,7 @@ ExportedFile write_table(const OutputFolder& out, const std::string& name,
         NumberTable table(temporary, header);
         fill(table);
         if (!table.close()) {
-            fail_file(out.path(name), "writing failed; the disk may be full.");
+            fail_file(out.path(name), "writing failed; " + why_unwritten() + ".");
         }
         file.records = table.records();
         file.xxh128 = table.digest();

@@ -79,6 +79,7 @@ Part WorkloadFile::read(std::uint64_t at, std::uint64_t bytes) const {
         InputFile file(path_);
         file.seek(at);
         file.read_exactly(part.bytes.get(), bytes);
+        watch_.require_unchanged();
     } else {
         std::copy_n(bytes_.data() + at, bytes, part.bytes.get());
     }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/files/input_file.hpp"
 #include "sim/simulation/simulation.hpp"
 #include "sim/workload_file/workload_head.hpp"
 
@@ -51,6 +52,7 @@ private:
     void read_splats(std::uint64_t number, FrameWorkload& frame) const;
     void read_lists(std::size_t number, FrameWorkload& frame) const;
 
+    InputWatch watch_;
     std::string path_, bytes_; ///< bytes: the content, unless it is read from the file
     std::uint64_t size_ = 0;
     WorkloadHead head_;

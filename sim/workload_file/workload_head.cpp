@@ -321,9 +321,10 @@ std::uint64_t length_of(const std::vector<std::uint64_t>& blocks) {
 bool same_projection(const ProjectionOptions& a, const ProjectionOptions& b) {
     const auto rules = [](const ProjectionOptions& o) {
         return std::tie(o.near_plane, o.dilation, o.jacobian_clamp, o.alpha_min, o.cut, o.order,
-                        o.compensated, o.rule, o.lens, o.sigma);
+                        o.compensated, o.rule, o.lens);
     };
-    return rules(a) == rules(b) && a.numbers == b.numbers;
+    const bool same_points = a.rule == ProjectionRule::Linear || a.sigma == b.sigma;
+    return rules(a) == rules(b) && same_points && a.numbers == b.numbers;
 }
 
 std::string frame_words(const ProjectionOptions& options, int tile_size, TileMode mode) {

@@ -16,6 +16,11 @@ std::string quoted_text(const std::string& text) {
     return dump_json(ordered_json(text));
 }
 
+/// Words without quotes that readers of YAML 1.1 take for true or false.
+bool is_truth_of_yaml(const std::string& word) {
+    return word == "on" || word == "off" || word == "yes" || word == "no";
+}
+
 std::vector<std::string> words(const std::vector<const char*>& names) {
     return {names.begin(), names.end()};
 }
@@ -80,7 +85,10 @@ public:
 
 private:
     void leaf(const char* key, KeyDoc row, const ordered_json&) override {
-        line(std::string(key) + ": " + row.default_value, row.doc);
+        const bool quoted = row.type == "choice" && is_truth_of_yaml(row.default_value);
+        line(std::string(key) + ": " +
+                 (quoted ? quoted_text(row.default_value) : row.default_value),
+             row.doc);
     }
     void line(const std::string& setting, const std::string& doc) {
         yaml += std::string(2 * depth_, ' ') + setting + (doc.empty() ? "" : "  # " + doc) + "\n";

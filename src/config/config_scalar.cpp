@@ -96,8 +96,13 @@ std::optional<std::string> Text::read(const ConfigNode& node) const {
 }
 
 std::optional<int> Choice::read(const ConfigNode& node) const {
+    // Programs that read YAML 1.1 take on and off for truths, and write them so.
+    const bool plain = node.kind == Kind::kScalar && !node.quoted;
+    const std::string word = plain && node.text == "true"    ? "on"
+                             : plain && node.text == "false" ? "off"
+                                                             : node.text;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        if (node.kind == Kind::kScalar && node.text == names[i]) {
+        if (node.kind == Kind::kScalar && word == names[i]) {
             return static_cast<int>(i);
         }
     }

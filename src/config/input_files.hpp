@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that this process reads, so that no result replaces one of them.
+// The files that this process reads, so that no result replaces one of them, and none is kept of a
+// file that changed in between.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -23,6 +25,27 @@ std::optional<FileIdentity> identity_of_file(const std::string& path);
 
 /// Notes that `path` is read. Any thread may call it.
 void remember_input(const std::string& path);
+
+/// While one lives, every file that is read has to stay what it was when it was first opened, by
+/// whatever read it: what has the key of a file is made from the same bytes as the key. Watches
+/// follow each other or lie within each other.
+class InputWatch {
+public:
+    InputWatch();
+    ~InputWatch();
+    InputWatch(const InputWatch&) = delete;
+    InputWatch& operator=(const InputWatch&) = delete;
+
+    /// Throws InputError if a file that was opened since the watch began has another size, date or
+    /// inode than when it was first opened, or had when it was opened again. A file may be removed.
+    void require_unchanged() const;
+
+private:
+    std::uint64_t begin_;
+};
+
+/// Notes what a file is, before it is opened.
+void watch_input(const std::string& path);
 
 /// The name of an input that `path` stands for as well.
 std::optional<std::string> input_at(const std::string& path);

@@ -152,9 +152,13 @@ std::unique_ptr<DynamicScene> open_dynamic_scene(const std::string& spec) {
     if (!files.empty()) {
         return std::make_unique<FileSequence>(std::move(files), spec.substr(asked.path.size()));
     }
-    return !asked.time && is_spacetime_ply(asked.path)
-               ? std::make_unique<SpacetimeScene>(read_spacetime_ply(asked.path), asked.frames)
-               : nullptr;
+    const InputWatch watch;
+    std::unique_ptr<DynamicScene> scene =
+        !asked.time && is_spacetime_ply(asked.path)
+            ? std::make_unique<SpacetimeScene>(read_spacetime_ply(asked.path), asked.frames)
+            : nullptr;
+    watch.require_unchanged();
+    return scene;
 }
 
 } // namespace degs

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string name_of(const fs::path& file) {
-    const fs::path absolute = fs::absolute(file);
+    const fs::path absolute = absolute_path(file);
     if (is_training_output(absolute.string())) {
         return absolute.parent_path().parent_path().parent_path().filename().string();
     }
@@ -155,10 +155,12 @@ std::string scene_name(const std::string& spec) {
     }
     const std::vector<std::string> files = sequence_files(asked.path);
     return files.empty() ? name_of(asked.path)
-                         : fs::absolute(files.front()).parent_path().filename().string();
+                         : absolute_path(files.front()).parent_path().filename().string();
 }
 
-Scene load_scene(const std::string& spec, const std::string& cameras_path) {
+namespace {
+
+Scene scene_of(const std::string& spec, const std::string& cameras_path) {
     const SceneSpec asked = parse_scene_spec(spec);
     Scene scene;
     scene.source = spec;
@@ -196,7 +198,22 @@ Scene load_scene(const std::string& spec, const std::string& cameras_path) {
     return scene;
 }
 
+} // namespace
+
+Scene load_scene(const std::string& spec, const std::string& cameras_path) {
+    const InputWatch watch;
+    try {
+        Scene scene = scene_of(spec, cameras_path);
+        watch.require_unchanged();
+        return scene;
+    } catch (const InputError&) {
+        watch.require_unchanged(); // a mixture of two files need not be a scene
+        throw;
+    }
+}
+
 std::vector<Camera> cameras_of_scene(const std::string& spec, const std::string& cameras_path) {
+    const InputWatch watch;
     const SceneSpec asked = parse_scene_spec(spec);
     std::string cameras = cameras_path;
     if (cameras.empty() && asked.synthetic) {
@@ -206,7 +223,10 @@ std::vector<Camera> cameras_of_scene(const std::string& spec, const std::string&
         const InputFile exists(file_of(asked));
         cameras = cameras.empty() ? cameras_beside(file_of(asked)) : cameras;
     }
-    return cameras.empty() ? read_scene_cameras(file_of(asked)) : read_camera_file(cameras).cameras;
+    std::vector<Camera> found =
+        cameras.empty() ? read_scene_cameras(file_of(asked)) : read_camera_file(cameras).cameras;
+    watch.require_unchanged();
+    return found;
 }
 
 std::size_t camera_count(const std::string& spec, const std::string& cameras_path) {

@@ -73,17 +73,41 @@ std::string head_of(const std::string& path) {
 SceneJson kind_of_text(std::string_view head, const std::string& path) {
     return is_gltf(head) && !starts_with(head, "glTF") && extension_of(path) != ".gltf"
                ? kind_of_json(path)
-               : SceneJson::Other;
+               : SceneJson::Gltf;
+}
+
+/// What stands where a scene was expected, and would be taken for a damaged one.
+void refuse_stand_in(std::string_view head, const std::string& extension, const std::string& path) {
+    if (starts_with(head, "version https://git-lfs.github.com/spec/")) {
+        fail_file(path,
+                  "this is the pointer that Git LFS leaves for a file; 'git lfs pull' fetches "
+                  "the file itself.");
+    }
+    if (extension == ".lcc") {
+        fail_file(path, "this is a scene in the LCC format, which is not read; allowed are " +
+                            allowed_extensions() + ".");
+    }
+    const std::size_t first = std::min(head.find_first_not_of(" \t\r\n"), head.size());
+    if (starts_with(head.substr(first), "<")) {
+        fail_file(path, "this is a page of HTML or XML, and a scene is needed; the download may "
+                        "have failed.");
+    }
 }
 
 /// InputError for a file of no format.
 const SceneFormat& format_of(const std::string& path) {
     const std::string head = head_of(path);
     const std::string extension = extension_of(path);
+    refuse_stand_in(head, extension, path);
     const std::vector<SceneFormat>& formats = scene_formats();
     auto format = std::find_if(formats.begin(), formats.end(),
                                [&](const SceneFormat& f) { return f.matches(head); });
-    if (const SceneJson kind = kind_of_text(head, path); kind != SceneJson::Other) {
+    const SceneJson kind = kind_of_text(head, path);
+    if (kind == SceneJson::Other) {
+        fail_file(path, "this is JSON text, but no glTF, which has an 'asset', and no SOG; if it "
+                        "was downloaded, it may be an answer of the server.");
+    }
+    if (kind != SceneJson::Gltf) {
         format = std::find_if(formats.begin(), formats.end(), [kind](const SceneFormat& f) {
             return kind == SceneJson::Sog ? f.read == read_sog : f.read_detail != nullptr;
         });

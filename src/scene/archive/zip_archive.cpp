@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/archive/zip_archive.hpp"
 
+#include <set>
+
 #include <zip.h>
 
 #include "base/visible_text.hpp"
@@ -42,6 +44,13 @@ ZipArchive::ZipArchive(const std::string& path) : path_(path), bytes_(InputFile(
         fail_file(path, "the archive holds " + std::to_string(files) + " files; at most " +
                             std::to_string(kMaxFiles) + " are allowed.");
     }
+    std::set<std::string> known;
+    for (const std::string& name : names()) {
+        if (!known.insert(name).second) { // programs differ in which of them they read
+            fail_file(path, "the archive holds '" + visible(name.substr(0, 100)) +
+                                "' twice; every file needs a name of its own.");
+        }
+    }
 }
 
 std::vector<std::string> ZipArchive::names() const {
@@ -72,6 +81,7 @@ std::string ZipArchive::read(const std::string& name, std::uint64_t limit_bytes)
     if (!known || facts.comp_size > bytes_ || facts.size / kMaxInflation > facts.comp_size) {
         fail_file(path_, inside + "claims a size that it cannot have; the file is damaged.");
     }
+    require_sane_growth(path_, inside.substr(0, inside.size() - 1), facts.comp_size, facts.size);
     if (facts.size > limit_bytes) {
         fail_file(path_, inside + "has " + std::to_string(facts.size) + " bytes; at most " +
                              std::to_string(limit_bytes) + " are allowed for it.");

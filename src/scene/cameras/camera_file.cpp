@@ -38,7 +38,7 @@ Kind kind_of(const std::string& path) {
         name == "images.bin") {
         return Kind::Colmap;
     }
-    std::size_t begin = head.rfind("\xef\xbb\xbf", 0) == 0 ? 3 : 0; // byte order mark
+    std::size_t begin = head.rfind(kByteOrderMark, 0) == 0 ? kByteOrderMark.size() : 0;
     while (begin < head.size() && std::isspace(static_cast<unsigned char>(head[begin])) != 0) {
         ++begin;
     }
@@ -73,7 +73,7 @@ std::string camera_file_in(const fs::path& folder) {
 } // namespace
 
 bool is_training_output(const std::string& file) {
-    const fs::path absolute = fs::absolute(file);
+    const fs::path absolute = absolute_path(file);
     return absolute.stem() == "point_cloud" &&
            absolute.parent_path().filename().string().rfind("iteration_", 0) == 0;
 }
@@ -113,7 +113,7 @@ std::string cameras_beside(const std::string& scene_file) {
     }
     std::string found = camera_file_in(file.parent_path());
     if (found.empty() && is_training_output(scene_file)) {
-        found = camera_file_in(fs::absolute(file).parent_path().parent_path().parent_path());
+        found = camera_file_in(absolute_path(file).parent_path().parent_path().parent_path());
     }
     return found;
 }

@@ -14,7 +14,13 @@ constexpr std::size_t kMostLine = 65536; ///< bytes of a line that describes a c
 /// The lines of a text file, counted from 1. What a line of 2D points holds is not kept.
 class ColmapLines {
 public:
-    explicit ColmapLines(const std::string& path) : file_(path) {}
+    explicit ColmapLines(const std::string& path) : file_(path) {
+        std::string mark(kByteOrderMark.size(), '\0');
+        mark.resize(file_.read_some(mark.data(), mark.size()));
+        if (mark != kByteOrderMark) {
+            file_.seek(0);
+        }
+    }
 
     /// The next line that is neither empty nor a comment.
     bool next(std::string& line) {

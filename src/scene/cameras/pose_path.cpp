@@ -14,7 +14,8 @@ namespace degs {
 namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{256} << 20U;
-constexpr double kLargest = 1e9;      // of positions and times
+constexpr double kLargest = 1e9;      // of positions
+constexpr double kLatest = 1e10;      // of times, s: those since 1970 are below 2e9
 constexpr double kLengthSlack = 1e-3; // of quaternions, as of the matrices of camera files
 
 constexpr std::array<const char*, 8> kColumns{"time_s", "x", "y", "z", "qw", "qx", "qy", "qz"};
@@ -27,11 +28,17 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
 }
 
+/// RFC 4180 lets every cell be in quotes; neither numbers nor names of columns hold any.
+std::string_view unquoted(std::string_view cell) {
+    const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+    return quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
 std::vector<std::string_view> cells_of(std::string_view line) {
     std::vector<std::string_view> cells;
     for (std::size_t begin = 0;;) {
         const std::size_t end = line.find(',', begin);
-        cells.push_back(trimmed(line.substr(begin, end - begin)));
+        cells.push_back(unquoted(trimmed(line.substr(begin, end - begin))));
         if (end == std::string_view::npos) {
             return cells;
         }
@@ -58,12 +65,14 @@ std::array<std::size_t, kColumns.size()> columns_of(const CameraPlace& place,
 }
 
 double number_of(const CameraPlace& place, const char* column, std::string_view text) {
+    const bool time = column == kColumns.front();
+    const double most = time ? kLatest : kLargest;
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() ||
-        !(std::abs(value) <= kLargest)) {
+    if (error != std::errc() || end != text.data() + text.size() || !(std::abs(value) <= most)) {
         place.fail("has a " + std::string(column) + " of " + in_quotes(text) +
-                   ", which is not a number from -1e9 to 1e9.");
+                   (time ? ", which is not a number of seconds from -1e10 to 1e10."
+                         : ", which is not a number from -1e9 to 1e9."));
     }
     return value;
 }

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "base/visible_text.hpp"
-#include "config/input_files.hpp"
 #include "config/nearby_file.hpp"
 #include "degs/error.hpp"
 
@@ -26,6 +25,7 @@ std::uint64_t checked_size(const std::string& path) {
     if (!std::filesystem::is_regular_file(status)) {
         fail_file(path, "this is not a regular file, or its folder may not be read.");
     }
+    watch_input(path);
     const std::uint64_t size = std::filesystem::file_size(path, error);
     if (error) {
         fail_file(path, "its size cannot be read (" + error.message() + ").");
@@ -42,6 +42,17 @@ void fail_file(const std::string& path, const std::string& sentence) {
     throw InputError(path + ": " + sentence);
 }
 
+void require_sane_growth(const std::string& path, const std::string& what, std::uint64_t packed,
+                         std::uint64_t plain) {
+    constexpr std::uint64_t kFree = std::uint64_t{64} << 20U;
+    constexpr std::uint64_t kMostTimes = 100; // numbers of scenes shrink to a tenth at most
+    if (plain > kFree && plain / kMostTimes > packed) {
+        fail_file(path, what + " would grow from " + std::to_string(packed) + " to " +
+                            std::to_string(plain) + " bytes; beyond " + std::to_string(kFree) +
+                            ", at most " + std::to_string(kMostTimes) + " times are allowed.");
+    }
+}
+
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t kLongest = 40;
     std::string out = "'";
@@ -49,6 +60,12 @@ std::string in_quotes(std::string_view text) {
         out += c >= ' ' && c <= '~' ? c : '?';
     }
     return out + (text.size() > kLongest ? "...'" : "'");
+}
+
+std::filesystem::path absolute_path(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path absolute = std::filesystem::absolute(path, error);
+    return error ? path : absolute;
 }
 
 InputFile::InputFile(const std::string& path)
@@ -97,10 +114,15 @@ void InputFile::require_at_most(std::uint64_t limit_bytes) const {
 }
 
 std::string read_text(const std::string& path, std::uint64_t limit_bytes) {
+    const InputWatch watch;
     InputFile file(path);
     file.require_at_most(limit_bytes);
     std::string text(file.size(), '\0');
     file.read_exactly(text.data(), text.size());
+    watch.require_unchanged();
+    if (text.rfind(kByteOrderMark, 0) == 0) {
+        text.erase(0, kByteOrderMark.size());
+    }
     return text;
 }
 

@@ -3,17 +3,28 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
+
+#include "config/input_files.hpp"
 
 namespace degs {
 
 /// Throws InputError "<path>: <sentence>".
 [[noreturn]] void fail_file(const std::string& path, const std::string& sentence);
 
+/// Throws InputError if `packed` bytes would become far more than scenes ever do: a small file
+/// could fill the memory. `what` is the subject of the sentence.
+void require_sane_growth(const std::string& path, const std::string& what, std::uint64_t packed,
+                         std::uint64_t plain);
+
 /// Text of a file in a message: in quotes, printable and short, whatever the file holds.
 std::string in_quotes(std::string_view text);
+
+/// From the root on, but as it is if the working folder has been removed.
+std::filesystem::path absolute_path(const std::filesystem::path& path);
 
 /// A regular file of known size, read in blocks. Every failure is an InputError that names it.
 class InputFile {
@@ -46,7 +57,11 @@ private:
     std::ifstream stream_;
 };
 
-/// The whole file as text; InputError if it is larger than `limit_bytes`.
+/// The mark of UTF-8, with which some programs begin their texts.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
+/// The whole file as text, without a mark of UTF-8 in front; InputError if it is larger than
+/// `limit_bytes`.
 std::string read_text(const std::string& path, std::uint64_t limit_bytes);
 
 } // namespace degs

@@ -100,12 +100,22 @@ void write_atomically(const std::string& path,
     if (!file->exists()) {
         fail_file(path, "the file cannot be written; check the permissions of its folder.");
     }
+    errno = 0;
     write(file->name());
     if (current_set != nullptr) {
         current_set->files_.push_back({std::move(file), path});
     } else {
         put_in_place(*file, path);
     }
+}
+
+std::string why_unwritten() {
+    const int reason = errno;
+    return reason == EMFILE || reason == ENFILE
+               ? "because too many files are open ('ulimit -n' says how many may be)"
+           : reason == EFBIG
+               ? "because the file would be larger than is allowed ('ulimit -f' says how large)"
+               : "the disk may be full";
 }
 
 bool takes_files(const std::string& folder) {

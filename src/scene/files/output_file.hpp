@@ -15,6 +15,10 @@ namespace degs {
 void write_atomically(const std::string& path,
                       const std::function<void(const std::string& temporary)>& write);
 
+/// Why a stream of write_atomically() has failed, by what the system said last: the end of a
+/// sentence.
+std::string why_unwritten();
+
 class PartialFile;
 
 /// Files that tell of the same thing, so that they appear together or not at all.

@@ -31,7 +31,7 @@ std::string file_in_scene_folder(const std::string& scene, const std::string& na
         fail_file(scene, which + ", a name with a control character, which is not allowed.");
     }
     std::error_code error;
-    const fs::path folder = fs::canonical(fs::absolute(scene).parent_path(), error);
+    const fs::path folder = fs::canonical(absolute_path(scene).parent_path(), error);
     const fs::path file = fs::weakly_canonical(folder / name, error);
     if (error || fs::path(name).is_absolute() || !is_inside(folder, file)) {
         fail_file(scene, which + "; only files in the folder of the scene are read.");

@@ -84,7 +84,7 @@ void load(GltfFile& file, const GltfSource& source, Allowed& allowed) {
     loader.SetFsCallbacks({file_exists, same_path, read_allowed, write_nothing, &allowed});
     std::error_code ignored;
     const std::string folder =
-        fs::canonical(fs::absolute(source.path).parent_path(), ignored).string();
+        fs::canonical(absolute_path(source.path).parent_path(), ignored).string();
     std::string error, warning;
     bool loaded = false;
     const auto size = static_cast<unsigned>(source.bytes.size());

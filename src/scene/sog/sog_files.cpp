@@ -95,8 +95,10 @@ private:
             kind_ = SceneJson::Sog;
         } else if (levels.count(name) != 0) {
             kind_ = SceneJson::SogLevels;
+        } else if (name == "asset" || gltf.count(name) != 0) {
+            kind_ = SceneJson::Gltf;
         }
-        return kind_ != SceneJson::Other || gltf.count(name) != 0;
+        return kind_ != SceneJson::Other && name != "asset"; // which a SOG may have, too
     }
 
     int depth_ = 0;

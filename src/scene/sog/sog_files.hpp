@@ -24,10 +24,10 @@ public:
 /// streamed scene of many levels, which streamed_sog.hpp reads.
 std::unique_ptr<SogFiles> open_sog_files(const std::string& path);
 
-enum class SceneJson { Other, Sog, SogLevels };
+enum class SceneJson { Other, Sog, SogLevels, Gltf };
 
 /// What the JSON text `path` is by its name or the members of its root: meta.json of a SOG scene,
-/// lod-meta.json of a streamed one, or something else (also if it is no JSON).
+/// lod-meta.json of a streamed one, a glTF, or something else (also if it is no JSON).
 SceneJson kind_of_json(const std::string& path);
 
 } // namespace degs

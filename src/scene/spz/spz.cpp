@@ -18,6 +18,7 @@ namespace degs {
 namespace {
 
 constexpr std::uint64_t kMaxRatio = 1032;        ///< deflate cannot do better
+constexpr std::uint64_t kMaxZstdRatio = 1 << 17; ///< nor a run of ZSTD
 constexpr std::size_t kMaxRecordBytes = 1 << 16; ///< of all extension records
 constexpr std::size_t kStripBytes = 1 << 16;
 constexpr double kColourScale = 0.15;
@@ -140,7 +141,7 @@ private:
             fail_file(where_, "SPZ version " + std::to_string(header_.version) +
                                   " must be compressed by gzip, and this file is not.");
         }
-        check_claims(1024); // as the reference decoder
+        check_claims(kMaxZstdRatio);
         const std::uint64_t table = load_u32(file_.data() + 16);
         const auto streams = static_cast<unsigned char>(file_[15]);
         const std::uint64_t expected = header_.sh_degree == 0 ? 5 : 6;
@@ -193,6 +194,7 @@ private:
                                   std::to_string(file_.size()) +
                                   " bytes can hold; the file is truncated or damaged.");
         }
+        require_sane_growth(where_, "its data", file_.size(), header_.body_bytes());
         content_.cloud.sh_degree = std::min(header_.sh_degree, 3);
         // Common files shrink to a fourth at most. Beyond, the arrays grow with the data.
         expected_ = std::min<std::uint64_t>(
@@ -329,9 +331,19 @@ SceneContent decode_spz(const std::string& where, std::string_view bytes) {
 }
 
 SceneContent read_spz(const std::string& path) {
+    constexpr std::size_t kSignatureBytes = 4;
+    constexpr std::string_view kGzip = "\x1f\x8b";
     InputFile file(path);
-    std::string bytes(file.size(), '\0');
+    std::string bytes(std::min<std::uint64_t>(file.size(), kSignatureBytes), '\0');
     file.read_exactly(bytes.data(), bytes.size());
+    const bool plain = bytes.size() == kSignatureBytes && load_u32(bytes.data()) == kSpzMagic;
+    if (!plain && bytes.substr(0, kGzip.size()) != kGzip) { // before all of it is read
+        fail_file(path, "its first bytes are " + in_quotes(bytes) +
+                            ", but an SPZ scene begins with those of gzip or with 'NGSP'.");
+    }
+    const std::size_t first = bytes.size();
+    bytes.resize(file.size());
+    file.read_exactly(bytes.data() + first, bytes.size() - first);
     return decode_spz(path, bytes);
 }
 

@@ -27,6 +27,31 @@ TEST_P(HostileZipArchive, AChangedByteIsRefused) {
     EXPECT_THROW(archive.read("file", 5000), InputError);
 }
 
+TEST(HostileZip, TwoFilesOfOneNameAreRefused) {
+    const test::Folder folder;
+    test::ZipBuilder zip;
+    zip.files = {{"meta.json", "{}"}, {"a", ""}, {"meta.json", "{\"version\": 2}"}};
+    const std::string file = folder.write("a.zip", zip.file());
+    EXPECT_THAT(test::complaint([&] { const ZipArchive archive(file); }),
+                test::IsSentenceWith("the archive holds 'meta.json' twice"));
+}
+
+TEST(HostileZip, AFileThatWouldFillTheMemoryIsRefused) {
+    const test::Folder folder;
+    for (const std::size_t size : {std::size_t{1} << 20U, (std::size_t{64} << 20U) + 1}) {
+        test::ZipBuilder zip;
+        zip.deflated = true;
+        zip.files.emplace_back("file", std::string(size, 'a'));
+        const ZipArchive archive(folder.write("a.zip", zip.file()));
+        if (size == 1U << 20U) {
+            EXPECT_EQ(archive.read("file", 1U << 30U).size(), size);
+        } else {
+            EXPECT_THAT(test::complaint([&] { archive.read("file", 1U << 30U); }),
+                        test::IsSentenceWith("'file' in the archive would grow from "));
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, HostileZipArchive, ::testing::Bool());
 
 } // namespace

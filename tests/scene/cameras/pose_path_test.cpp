@@ -53,6 +53,22 @@ TEST_F(PoseFile, ReadsColumnsInAnyOrderAndSkipsOthers) {
     EXPECT_EQ(poses[1].rotation.y, 1);
 }
 
+// What spreadsheets, R and recorders with Unix time write.
+TEST_F(PoseFile, ReadsMarksQuotesAndUnixTime) {
+    const std::string head = "time_s,x,y,z,qw,qx,qy,qz\n";
+    const std::string row = "1700000000.25,1,2,3,1,0,0,0\n";
+    const std::string quoted = "\"time_s\",\"x\",\"y\",\"z\",\"qw\",\"qx\",\"qy\",\"qz\"\r\n"
+                               "\"1700000000.25\",\"1\", \"2\" ,3,\"1\",0,0,\"0\"\r\n";
+    for (const std::string& text : {head + row, "\xef\xbb\xbf" + head + row, quoted}) {
+        const std::vector<Pose> poses = read(text);
+        ASSERT_EQ(poses.size(), 1U);
+        EXPECT_EQ(poses[0].time_s, 1700000000.25);
+        EXPECT_EQ(poses[0].position, glm::dvec3(1, 2, 3));
+    }
+    EXPECT_NE(refusal(head + "1700000000000000000,0,0,0,1,0,0,0\n").find("a number of seconds"),
+              std::string::npos);
+}
+
 TEST_F(PoseFile, RefusesWithTheLine) {
     const std::string head = "time_s,x,y,z,qw,qx,qy,qz\n";
     for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{

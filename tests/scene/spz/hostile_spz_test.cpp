@@ -2,6 +2,8 @@
 // Broken and malicious SPZ files: one sentence each, under the sanitizers too.
 #include "scene/spz/spz.hpp"
 
+#include <random>
+
 #include "tests/scene/scene_fixture.hpp"
 #include "tests/scene/spz/spz_builder.hpp"
 
@@ -25,6 +27,38 @@ TEST(HostileSpz, TruncatedAnywhereIsOneSentence) {
                 << version << " " << size;
         }
     }
+}
+
+// ZSTD writes 128 KiB of one byte as 4.
+TEST(HostileSpz, RunsAreRead) {
+    SpzBuilder spz = SpzBuilder::scene(4, 400000, 0);
+    for (std::string& attribute : spz.attributes) {
+        attribute.assign(attribute.size(), '\x40');
+    }
+    const std::string file = spz.file();
+    EXPECT_LT(file.size() * 1024, 400000U * 20U);
+    EXPECT_EQ(decode_spz("made.spz", file).cloud.size(), 400000U);
+}
+
+TEST(HostileSpz, SmallFilesThatWouldFillTheMemory) {
+    for (const std::uint32_t version : {3U, 4U}) {
+        SpzBuilder spz = SpzBuilder::scene(version, 1, 0);
+        spz.count = 4000000; // 80 MB
+        std::mt19937 draw(1);
+        for (int k = 0; k < 100000; ++k) { // as many as deflate could make of these
+            spz.attributes[0] += static_cast<char>(draw());
+        }
+        const std::string words = "its data would grow from ";
+        EXPECT_THAT(complaint_about_spz(spz.file()), IsSentenceWith(words)) << version;
+    }
+}
+
+TEST(HostileSpz, WithoutASignatureIsNotRead) {
+    const test::Folder folder;
+    const std::string file = folder.write("s.spz", "no");
+    std::filesystem::resize_file(file, std::uintmax_t{1} << 40U); // more than any memory
+    EXPECT_THAT(test::complaint([&] { read_spz(file); }),
+                IsSentenceWith("its first bytes are 'no"));
 }
 
 TEST(HostileSpz, HeadersThatLie) {

@@ -34,6 +34,14 @@ TEST(Resize, OneSideScalesBoth) {
     }
 }
 
+TEST(Resize, NoSideIsLongerThanThatOfACamera) {
+    for (const char* text : {"65537x1", "1x65537", "1000000x1", "1x1000000"}) {
+        EXPECT_THROW(image_size(text), InputError) << text;
+    }
+    EXPECT_EQ(image_size("65536x1").width, 65536);
+    EXPECT_EQ(image_size("1x65536").height, 65536);
+}
+
 TEST(Resize, BothSidesCropAtTheScaleOfTheWidth) {
     const Camera square = resize(full_hd(), 960, 960);
     EXPECT_EQ(square.width, 960);

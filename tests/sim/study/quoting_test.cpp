@@ -173,6 +173,13 @@ TEST(HostileQuoting, InCsvAndSvg) {
     std::size_t at = 0;
     const std::string text = "a,\"b\"\r\nc";
     EXPECT_EQ(record(sim::csv_cell(text) + ",x\n", at), (std::vector<std::string>{text, "x"}));
+    for (const char* formula : {"=HYPERLINK(0)", "+1+1", "-a", "@SUM(1)"}) {
+        EXPECT_EQ(sim::csv_cell(formula), std::string("'") + formula);
+    }
+    for (const char* plain : {"-1", "+2.5", "-1e9", "-inf", "a=b", ""}) {
+        EXPECT_EQ(sim::csv_cell(plain), plain);
+    }
+    EXPECT_EQ(sim::csv_cell("\x1b[2J\rx"), "\\x1b[2J\\rx");
     sim::Svg svg;
     svg.text(0, 0, "<&>\"\x1b\xff\xef\xbf\xbf", {});
     const std::string document = svg.document(1, 1, "]]><b>");

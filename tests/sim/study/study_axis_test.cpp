@@ -56,6 +56,18 @@ TEST(StudyAxes, RangesMultiplyOrAdd) {
                 ElementsAre("204.8", "204.9", "205", "205.1"));
 }
 
+// Writers of JSON put every text in quotes, and some writers of YAML do.
+TEST(StudyAxes, QuotesChangeNoRange) {
+    for (const std::string& range : {std::string("x1/2..x2 x2"), std::string("18KB..144KB x2"),
+                                     std::string("20000..24000 +1000")}) {
+        const std::vector<std::string> values =
+            values_with("  gaussian_buffer.bytes: " + range + "\n");
+        EXPECT_GT(values.size(), 2U);
+        EXPECT_EQ(values_with("  gaussian_buffer.bytes: '" + range + "'\n"), values);
+        EXPECT_EQ(values_with("  gaussian_buffer.bytes: [\"" + range + "\"]\n"), values);
+    }
+}
+
 TEST(StudyAxes, UnitsAreThoseOfTheKey) {
     EXPECT_THAT(values_with("  gaussian_buffer.bytes: [73728, 36 KB, 18KiB, 1MB, 6144B]\n"),
                 ElementsAre("73728", "36864", "18432", "1048576", "6144"));
