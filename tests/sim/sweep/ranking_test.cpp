@@ -3,6 +3,8 @@
 #include <cmath>
 #include <map>
 
+#include <gmock/gmock.h>
+
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
