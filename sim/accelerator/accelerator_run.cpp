@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/accelerator/accelerator_run.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <stdexcept>
 
@@ -67,7 +68,10 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     std::uint64_t activations = 0;
     const Timebase time{ClockDomain(config.clock_ghz), fidelity, timeline ? &*timeline : nullptr,
                         &activations};
-    RenderJob job = make_render_job(frames, config, views);
+    RenderJob job = make_render_job({frames.begin(), frames.begin() + views}, config, views);
+    job.keeps_images = recording.images;
+    std::for_each(frames.begin() + views, frames.end(),
+                  [&job](const FrameWorkload* frame) { job.add(*frame); });
     if (timeline || recording.tiles) {
         job.recorder = std::make_unique<SlotRecorder>(time.timeline);
     }

@@ -14,16 +14,17 @@ namespace degs::sim {
 /// What a run records besides its sums. Results do not depend on it.
 struct Recording {
     std::optional<Timeline::Config> timeline;
-    bool tiles = false; ///< what the array did for each tile
-    std::string block;  ///< that writes `log`, see logged_block(); empty: none
+    bool tiles = false;  ///< what the array did for each tile
+    bool images = false; ///< of all frames; else the first one's, and the others take no memory
+    std::string block;   ///< that writes `log`, see logged_block(); empty: none
     EventLog* log = nullptr;
 };
 
 /// Builds the accelerator, renders the frames one after the other and checks the invariants. May be
 /// called once per process, because SystemC elaborates once. All workloads must have the tile size
 /// and tile mode that the accelerator asks for. Each `views` of them are one frame of that many
-/// views; their number divides that of the workloads. Throws std::logic_error if the model is
-/// broken.
+/// views; their number divides that of the workloads. Images that are not recorded are empty.
+/// Throws std::logic_error if the model is broken.
 AcceleratorResult run_accelerator(const AcceleratorConfig& config,
                                   const std::vector<const FrameWorkload*>& frames,
                                   Fidelity fidelity, const BuildOptions& options,

@@ -45,6 +45,8 @@ nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
         json["points"].push_back({{"offered_gb_per_s", p.offered_gb_per_s},
                                   {"cpu_gb_per_s", p.cpu_gb_per_s},
                                   {"display_gb_per_s", p.display_gb_per_s},
+                                  {"display_rows", p.display_rows},
+                                  {"late_rows", p.late_rows},
                                   {"accelerator_gb_per_s", p.accelerator_gb_per_s},
                                   {"latency_ns", p.frame.latency_ns},
                                   {"cycles", p.frame.cycles},
@@ -61,12 +63,13 @@ nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
 }
 
 std::string soc_words(const SocRequest& request, const View& view, const SocResult& result) {
-    TextTable table({"CPU asks GB/s", "gets", "display", "accelerator GB/s", "frame ms", "slower"});
+    TextTable table({"CPU asks GB/s", "gets", "display", "late rows", "accelerator GB/s",
+                     "frame ms", "slower"});
     const double alone = result.points.front().frame.latency_ns;
     for (const SocPoint& p : result.points) {
         table.add({decimal_text(p.offered_gb_per_s), three_digits(p.cpu_gb_per_s),
-                   three_digits(p.display_gb_per_s), three_digits(p.accelerator_gb_per_s),
-                   three_digits(p.frame.latency_ns / 1e6),
+                   three_digits(p.display_gb_per_s), grouped(p.late_rows),
+                   three_digits(p.accelerator_gb_per_s), three_digits(p.frame.latency_ns / 1e6),
                    three_digits(p.frame.latency_ns / alone) + "x"});
     }
     const std::string heading = soc_heading(request.config, request.memory, view) + " · " +

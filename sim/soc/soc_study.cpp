@@ -84,7 +84,7 @@ public:
 private:
     void measure(SocHost& host, double load) {
         const std::uint64_t cpu = platform_.cpu_bytes();
-        const std::uint64_t shown = platform_.display().stats().bytes;
+        const Display::Stats shown = platform_.display().stats();
         SocPoint point;
         point.offered_gb_per_s = load;
         const sc_core::sc_time begin = sc_core::sc_time_stamp();
@@ -95,7 +95,10 @@ private:
         const double ns = point.frame.latency_ns;
         const auto rate = [ns](std::uint64_t bytes) { return rate_of(bytes, ns); };
         point.cpu_gb_per_s = rate(platform_.cpu_bytes() - cpu);
-        point.display_gb_per_s = rate(platform_.display().stats().bytes - shown);
+        const Display::Stats& display = platform_.display().stats();
+        point.display_gb_per_s = rate(display.bytes - shown.bytes);
+        point.display_rows = display.rows - shown.rows;
+        point.late_rows = display.underruns - shown.underruns;
         point.accelerator_gb_per_s = rate(point.frame.bytes_read + point.frame.bytes_written);
         result.points.push_back(point);
         if (request_.refresh_hz > 0) {

@@ -34,6 +34,8 @@ struct SocPoint {
     double offered_gb_per_s = 0; ///< by the cores
     double cpu_gb_per_s = 0;     ///< that they got during the frame
     double display_gb_per_s = 0;
+    std::uint64_t display_rows = 0; ///< that the display fetched during the frame
+    std::uint64_t late_rows = 0;    ///< of those, underruns
     double accelerator_gb_per_s = 0;
     SocFrame frame;
 };

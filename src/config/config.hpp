@@ -41,6 +41,11 @@ public:
     virtual void real(const char* key, double& value, double low, double high, const char* doc) = 0;
     virtual void boolean(const char* key, bool& value, const char* doc) = 0;
     virtual void text(const char* key, std::string& value, const char* doc) = 0;
+    /// Says how the text `key`, visited before, is spelled: a regular expression for all of it. It
+    /// is for those who describe configurations; who describes the key checks the text as well.
+    virtual void spelled(const char* key, const std::string& expression) {
+        (void)key, (void)expression;
+    }
     /// `value` is an index into `names`.
     virtual void choice(const char* key, int& value, const std::vector<const char*>& names,
                         const char* doc) = 0;

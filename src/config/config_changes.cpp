@@ -55,6 +55,9 @@ public:
         standing_[path_of(key)] = value;
         change(key, value, config_scalar::Text{}, doc);
     }
+    void spelled(const char* key, const std::string& expression) override {
+        outer_.spelled(key, kUnchanged + ("|" + expression));
+    }
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override {
         change(key, value, config_scalar::Choice{names}, doc);

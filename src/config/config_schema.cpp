@@ -2,7 +2,6 @@
 #include "config/config_schema.hpp"
 
 #include <limits>
-#include <string_view>
 
 #include "config/quantity.hpp"
 
@@ -21,12 +20,6 @@ ordered_json empty_section(const char* doc) {
     section["additionalProperties"] = false;
     return section;
 }
-
-/// How the sentences of number formats begin, and what describes their names.
-constexpr std::string_view kFormatSentence = "format: ";
-constexpr const char* kFormatPattern =
-    "^(fp64|fp32|fp16|bf16|u?e[2-8]m([1-9]|1[0-9]|2[0-3])(b[0-9]{1,3})?|"
-    "u?q[0-9]{1,2}[.][0-9]{1,2})$";
 
 /// Builds the schema of one section after the other. A bound at the end of its type is none, as in
 /// config_words::range().
@@ -70,12 +63,12 @@ public:
     }
     /// To YAML an unquoted 28 is a number, and here it is a text like any other scalar.
     void text(const char* key, std::string& value, const char* doc) override {
-        ordered_json what{{"type", {"string", "number", "boolean"}}, {"default", value}};
-        if (std::string_view(doc).substr(0, kFormatSentence.size()) == kFormatSentence) {
-            what["type"] = "string";
-            what["pattern"] = kFormatPattern;
-        }
-        leaf(key, doc, what);
+        leaf(key, doc, {{"type", {"string", "number", "boolean"}}, {"default", value}});
+    }
+    void spelled(const char* key, const std::string& expression) override {
+        ordered_json& leaf = properties()[key];
+        leaf["type"] = "string";
+        leaf["pattern"] = "^(" + expression + ")$";
     }
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override {

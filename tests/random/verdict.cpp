@@ -88,6 +88,7 @@ std::string run_one(const Trial& trial, const std::string& configs, const std::s
     sim::RunRequest request;
     request.config = sim::load_run_config(configs + "/" + trial.config, trial.overrides());
     request.fidelity = fidelity;
+    request.recording.images = true;
     request.build.array_only = trial.array_only;
     const sim::View view =
         sim::load_view({trial.scene, cameras, trial.camera, trial.width, trial.height, "", "", ""});

@@ -44,6 +44,9 @@ WRONG = [
     ("design", "array.subtile_skip", "key of GSCore in a DeGS", "accelerator: degs\narray: { subtile_skip: none }"),
     ("design", "scheduler", "section of DeGS in GSCore", "accelerator: gscore\nscheduler: { banks: 4 }"),
     ("design", "dataflow", "key of another behind an include", "include: ROOT/gcc-64.yaml\narray: { dataflow: none }"),
+    ("design", "x", "row of an accelerator that is not chosen", "accelerator: gscore\ncost: { degs: { x: 1 } }"),
+    *(("design", "colour", "no number format", f"pipeline: {{ formats: {{ colour: {name} }} }}")
+      for name in ("banana", "''", "fp33", "16", "true", "e9m3", "e1m3", "e4m24", "q8", "q8.", "xfp16", "uuq1.1")),
     ("design", "include", "no file", "include: [[]]\nname: a"),
     ("study", "baselines", "unknown key", STUDY + "baselines: a"),
     ("study", "combine", "unknown word", STUDY + "combine: all"),
@@ -70,7 +73,7 @@ WRONG = [
 RIGHT = [
     ("design", "packing: { bytes: 8KB }\nclock_ghz: 750MHz\nname: 64\nslicing:"),
     ("design", "include: [ROOT/gscore-64.yaml, ROOT/gscore-64.yaml]\narray: { subtile_skip: none }"),
-    ("design", "accelerator: gscore\ncost: { include: ROOT/cost/28nm.yaml, degs: { x: 1 } }"),
+    ("design", "accelerator: gscore\ncost: { include: ROOT/cost/28nm.yaml, degs: { packing_scheduler: { units: 4 } } }"),
     ("study", STUDY),
     ("study", STUDY.replace("width: 64", "resolutions: [720p, 4K]\ncameras: 0")),
     ("study", STUDY + "axes: { packing.bytes: x1/2..x2 x2 }"),

@@ -95,10 +95,13 @@ private:
             kind_ = SceneJson::Sog;
         } else if (levels.count(name) != 0) {
             kind_ = SceneJson::SogLevels;
-        } else if (name == "asset" || gltf.count(name) != 0) {
+        } else if (gltf.count(name) != 0) {
             kind_ = SceneJson::Gltf;
+        } else {
+            kind_ = name == "asset" ? SceneJson::Gltf : kind_; // unless a SOG has it
+            return false;
         }
-        return kind_ != SceneJson::Other && name != "asset"; // which a SOG may have, too
+        return true;
     }
 
     int depth_ = 0;

@@ -305,10 +305,11 @@ TEST(ComparisonOutput, EqualAreaScalesTimeAndEnergy) {
 }
 
 TEST(ComparisonOutput, CellsWithTheEndOfALineAreQuoted) {
-    for (const char* cell : {"a,b", "a\nb", "a\rb"}) {
+    for (const char* cell : {"a,b", "a\nb", "a\r\nb"}) {
         EXPECT_EQ(csv_cell(cell), "\"" + std::string(cell) + "\"");
     }
     EXPECT_EQ(csv_cell("a b"), "a b");
+    EXPECT_EQ(csv_cell("a\rb"), "a\\rb"); // a line that would be written over
 }
 
 TEST(ComparisonOutput, LinesOfUtilizationAreOfOneView) {

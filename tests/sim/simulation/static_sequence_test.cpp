@@ -25,6 +25,7 @@ Outcome run_still(const std::string& scene, const std::string& cameras) {
     RunRequest run;
     run.config = load_run_config(std::string(DEGS_CONFIGS) + "/degs-64.yaml", {}, "");
     run.reference = false;
+    run.recording.images = true;
     CachedView view(request, PathRequest{3, 0}, FrameCache()); // no step from frame to frame
     const std::vector<FrameWorkload> frames = view.frames(run.config.accelerator());
     std::vector<const FrameWorkload*> pointers;

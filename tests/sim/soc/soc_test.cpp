@@ -30,6 +30,16 @@ TEST(SmallRunSoc, LatencyRisesWithTheLoadAndPixelsStay) {
     EXPECT_EQ(alone["display_gb_per_s"], 0.0);
     EXPECT_NEAR(loaded["display_gb_per_s"].get<double>(), 1e-9 * 1000 * 120 * 160 * 4,
                 row_gb_per_s);
+    EXPECT_NEAR(loaded["display_rows"].get<double>(),
+                1e-9 * 1000 * 120 * loaded["latency_ns"].get<double>(), 1);
+    std::uint64_t rows = 0, late = 0;
+    for (const auto& point : written["points"]) {
+        rows += point["display_rows"].get<std::uint64_t>();
+        late += point["late_rows"].get<std::uint64_t>();
+        EXPECT_LE(point["late_rows"], point["display_rows"]);
+    }
+    EXPECT_EQ(rows, written["display"]["rows"]);
+    EXPECT_EQ(late, written["display"]["underruns"]);
     EXPECT_GT(written["psnr_db"], 45.0); // 8 bits alone: 20 log10(255 sqrt 12) = 58.9 dB
     EXPECT_NE(read_file(folder / "out/soc.svg").find("<svg"), std::string::npos);
 }

@@ -126,7 +126,7 @@ TEST(WorkloadFile, GivesTheFrameBack) {
 TEST(WorkloadFile, HoldsAFrameForEachRuleOfProjection) {
     const ProjectionOptions plain;
     EXPECT_TRUE(sim::same_projection(plain, ProjectionOptions()));
-    std::vector<ProjectionOptions> others(11, plain);
+    std::vector<ProjectionOptions> others(10, plain);
     others[0].near_plane = 0.1;
     others[1].dilation = 0.1;
     others[2].jacobian_clamp = 1.1;
@@ -135,12 +135,16 @@ TEST(WorkloadFile, HoldsAFrameForEachRuleOfProjection) {
     others[5].order = SplatOrder::Distance;
     others[6].compensated = true;
     others[7].rule = ProjectionRule::Unscented;
-    others[8].sigma.alpha *= 2;
-    others[9].lens = LensRule::Pinhole;
-    others[10].numbers.format = parse_format("fp16");
+    others[8].lens = LensRule::Pinhole;
+    others[9].numbers.format = parse_format("fp16");
     for (std::size_t i = 0; i < others.size(); ++i) {
         EXPECT_FALSE(sim::same_projection(plain, others[i])) << i;
     }
+    ProjectionOptions points = plain; // of the unscented projection, the only one that has any
+    points.sigma.alpha *= 2;
+    EXPECT_TRUE(sim::same_projection(plain, points));
+    points.rule = others[7].rule;
+    EXPECT_FALSE(sim::same_projection(points, others[7]));
 }
 
 /// What check_whole() says of a block and one splat more, whose depth this is.

@@ -37,7 +37,7 @@ void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
     first_splat.push_back(path->add_frame(frame));
     pair_prefix.push_back(prefix_of_pairs(frame));
     places.emplace_back(frame, record_order);
-    images.emplace_back(frame.camera.width, frame.camera.height);
+    images.push_back(keeps_images ? Image(frame.camera.width, frame.camera.height) : Image());
     const std::vector<int> listed = listed_tiles(frame, tile_order);
     const TileGrid grid = frame.grid();
     std::uint64_t before = 0;

@@ -85,7 +85,8 @@ struct RenderJob {
     KeptList<std::uint32_t> first_splat; ///< DataPath index of each frame's splat 0
     TileList tiles;                      ///< frame by frame, each in its tile order
     KeptList<std::uint64_t> tiles_of_frame;
-    KeptList<Image> images; ///< one per frame, filled by the Pixel Buffer
+    KeptList<Image> images;   ///< one per frame, filled by the Pixel Buffer unless it is empty
+    bool keeps_images = true; ///< of frames that join from now on; else theirs are empty
     std::unique_ptr<DataPath> path;
     int tile_size = 0;
     RecordOrder record_order = RecordOrder::Index; ///< of frames that join from now on

@@ -57,6 +57,9 @@ void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
 void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::string& section,
                                         TilePixels tile, int tiles, std::vector<const char*> others,
                                         int most) const {
+    const std::string readout = section + ".readout_pixels", rows = section + ".rows_per_cycle";
+    std::vector<const char*> rates = others;
+    rates.insert(rates.begin(), rows.c_str());
     const std::string state_key = section + ".state_bytes";
     others.insert(others.begin(), state_key.c_str());
     if (state_bytes == 0) {
@@ -77,6 +80,12 @@ void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::strin
                            "holds " + std::to_string(bytes / step * tiles) + " tiles" + of +
                                ", so " + std::to_string(rest) + " bytes of it have no effect",
                            std::to_string(bytes - rest), others});
+    const int leave = tiles * rows_per_cycle * tile.side; // each reads out one at a time
+    visitor.advise_if_set(release == ContextRelease::Bank || readout_pixels <= leave,
+                          {readout.c_str(),
+                           "has no effect above " + std::to_string(leave) +
+                               ", the pixels of the rows that leave per cycle",
+                           std::to_string(leave), rates});
 }
 
 PixelBuffer::Config PixelBuffer::Config::part_of(int parts) const {
@@ -236,6 +245,7 @@ Completion PixelBuffer::write_rows(TileNumber number) {
 const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y) {
     const JobTile& tile = job_.tiles[number];
     Image& image = job_.images[tile.frame];
+    const bool kept = !image.rgb.empty();
     const int pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
     const PixelRange columns = tile.drawn_columns();
     pixels_.resize(columns.last + 1);
@@ -249,7 +259,9 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
     std::size_t i = job_.frame_of(tile).camera.place_of(tile.columns().first, tile.y + y);
     for (int column = columns.first; column <= columns.last; ++column) {
         const PixelValue& pixel = pixels_[column];
-        image.put(i, pixel.rgb, pixel.transmittance, pixel.updates);
+        if (kept) {
+            image.put(i, pixel.rgb, pixel.transmittance, pixel.updates);
+        }
         encode(pixel, pixel_bytes, out);
         out += pixel_bytes;
         ++i;
