@@ -27,7 +27,7 @@ constexpr int usual_bias(int exponent_bits) {
 constexpr const char* kFormatWords =
     "fp64, fp32, fp16, bf16, [u]eEmM[bB] (E 2 to 8, M 1 to 23 bits, values within fp32's range) or "
     "[u]qI.F (2 to 32 bits)";
-/// The same as a regular expression, which does not know of sums and ranges of values.
+/// kFormatWords as a regular expression, which does not know of sums and ranges of values.
 constexpr const char* kFormatSpelling =
     "fp64|fp32|fp16|bf16|u?e[2-8]m([1-9]|1[0-9]|2[0-3])(b[0-9]{1,3})?|u?q[0-9]{1,2}[.][0-9]{1,2}";
 

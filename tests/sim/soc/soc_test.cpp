@@ -38,8 +38,11 @@ TEST(SmallRunSoc, LatencyRisesWithTheLoadAndPixelsStay) {
         late += point["late_rows"].get<std::uint64_t>();
         EXPECT_LE(point["late_rows"], point["display_rows"]);
     }
-    EXPECT_EQ(rows, written["display"]["rows"]);
-    EXPECT_EQ(late, written["display"]["underruns"]);
+    // A row may end between two frames.
+    EXPECT_LE(rows, written["display"]["rows"]);
+    EXPECT_GE(rows + written["points"].size(), written["display"]["rows"]);
+    EXPECT_LE(late, written["display"]["underruns"]);
+    EXPECT_GE(late + written["points"].size(), written["display"]["underruns"]);
     EXPECT_GT(written["psnr_db"], 45.0); // 8 bits alone: 20 log10(255 sqrt 12) = 58.9 dB
     EXPECT_NE(read_file(folder / "out/soc.svg").find("<svg"), std::string::npos);
 }
