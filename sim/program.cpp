@@ -9,6 +9,7 @@
 #include <systemc>
 
 #include "base/visible_text.hpp"
+#include "config/input_files.hpp"
 #include "sim/command_line/decimal_numbers.hpp"
 #include "sim/command_line/help_text.hpp"
 #include "sim/command_line/stated_command.hpp"
@@ -115,6 +116,7 @@ int run_program(int argc, char* argv[]) {
     CLI::App program("SystemC/TLM model of the DeGS accelerator for 3D Gaussian Splatting", "degs");
     try {
         require_stack();
+        spare_inputs();
         announce_interruption();
         quieten_kernel();
         add_commands(program);

@@ -11,6 +11,12 @@
 #include "degs/error.hpp"
 
 namespace degs::sim {
+namespace {
+
+constexpr const char* kNoMemory = "There is not enough memory for a scene or an image of this "
+                                  "size; 'ulimit -v' shows whether there is a limit.";
+
+} // namespace
 
 Failure failure_of(const std::exception_ptr& error) {
     try {
@@ -20,19 +26,23 @@ Failure failure_of(const std::exception_ptr& error) {
     } catch (const InputError& mistake) {
         return {kUserError, mistake.what()};
     } catch (const std::bad_alloc&) {
-        return {kInternalError, "There is not enough memory for a scene or an image of this size."};
+        return {kInternalError, kNoMemory};
     } catch (const sc_core::sc_report& report) {
+        if (std::string(report.get_msg()).find("stack memory") != std::string::npos) {
+            return {kInternalError, kNoMemory};
+        }
         return {kInternalError, std::string("The simulation kernel failed: ") +
                                     report.get_msg_type() + ": " + report.get_msg() + "."};
     } catch (const std::system_error& lack) {
         const bool limit = lack.code() == std::errc::resource_unavailable_try_again ||
                            lack.code() == std::errc::not_enough_memory; // for a thread
         return {kInternalError,
-                limit ? std::string("The system has nothing left for this program (") +
-                            lack.what() + "); 'ulimit' shows its limits."
-                      : std::string("Internal error: ") + lack.what() + "."};
+                limit
+                    ? std::string("The system has no memory or no thread left for this program (") +
+                          lack.what() + "); 'ulimit -v' and 'ulimit -u' show the limits."
+                    : std::string("Internal error: ") + lack.what() + "."};
     } catch (const std::length_error&) {
-        return {kInternalError, "There is not enough memory for a scene or an image of this size."};
+        return {kInternalError, kNoMemory};
     } catch (const std::exception& broken) {
         return {kInternalError, std::string("Internal error: ") + broken.what() + "."};
     } catch (...) {

@@ -96,14 +96,7 @@ std::string OutputFolder::path(const std::string& file) const {
 }
 
 void OutputFolder::write_text(const std::string& file, const std::string& text) const {
-    write_atomically(path(file), [&](const std::string& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
-        out << text;
-        out.close();
-        if (!out) {
-            fail_folder(folder_, "writing '" + file + "' failed, " + why_unwritten());
-        }
-    });
+    write_whole(path(file), [&](std::ostream& out) { out << text; });
 }
 
 void OutputFolder::write_json(const std::string& file, const nlohmann::ordered_json& value) const {

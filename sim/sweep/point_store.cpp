@@ -16,6 +16,8 @@
 #include "base/json_text.hpp"
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
+#include "scene/files/input_file.hpp"
+#include "scene/files/output_file.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/message_fields.hpp"
@@ -114,9 +116,10 @@ void remove_results(const OutputFolder& folder) {
         }
     }
     for (const fs::path& file : old) {
-        if (!fs::is_directory(file, none)) {
-            fs::remove(file, none);
-        }
+        refuse_input(file.string());
+    }
+    for (const fs::path& file : old) {
+        remove_result(file.string());
     }
 }
 
@@ -264,8 +267,7 @@ void PointStore::keep(std::size_t point, const StoredPoint& found) const {
     MessageWriter writer(heading(point));
     each_part(writer, frame, path);
     points_.write_text(keys_[point] + kPointFile, sealed(writer.message));
-    std::error_code none;
-    fs::remove(points_.path(keys_[point] + kFailedFile), none);
+    remove_result(points_.path(keys_[point] + kFailedFile));
 }
 
 void PointStore::keep_failure(std::size_t point, const Failure& failure) const {
@@ -275,9 +277,8 @@ void PointStore::keep_failure(std::size_t point, const Failure& failure) const {
 
 void PointStore::put_reports(std::size_t point, const std::optional<StoredPoint>& found) const {
     const auto put = [this](const std::string& file, const std::string* report) {
-        std::error_code none;
         if (report == nullptr) {
-            fs::remove(reports_.path(file), none);
+            remove_result(reports_.path(file));
         } else if (read_whole(reports_.path(file)) != *report) {
             reports_.write_text(file, *report);
         }
@@ -294,10 +295,10 @@ void PointStore::sweep_up() const {
 }
 
 void PointStore::drop_other_reports() const {
-    std::error_code none;
-    for (std::size_t point = keys_.size();
-         fs::remove(reports_.path(file_of(point, kReportFile)), none); ++point) {
-        fs::remove(reports_.path(file_of(point, kReportOfPath)), none);
+    for (std::size_t point = keys_.size(); name_exists(reports_.path(file_of(point, kReportFile)));
+         ++point) {
+        remove_result(reports_.path(file_of(point, kReportFile)));
+        remove_result(reports_.path(file_of(point, kReportOfPath)));
     }
 }
 

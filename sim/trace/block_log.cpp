@@ -10,7 +10,7 @@
 namespace degs::sim {
 
 void check_block_log(const BlockLogRequest& request) {
-    check_writable(request.file());
+    claim_output(request.file());
 }
 
 std::string block_log_text(const std::string& design, const std::string& block,

@@ -98,20 +98,15 @@ void MemoryTrace::write_line(const MemoryRequest& request, std::uint64_t begin, 
 
 void check_memory_trace(const std::string& file) {
     memory_trace_form(file);
-    check_writable(file);
+    claim_output(file);
 }
 
 void write_memory_trace(const std::string& file, const std::string& design, double clock_ghz,
                         const std::function<void(RequestListener& trace)>& run) {
-    write_atomically(file, [&](const std::string& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
+    write_whole(file, [&](std::ostream& out) {
         MemoryTrace trace(out, memory_trace_form(file), design, clock_ghz);
         run(trace);
         trace.close();
-        out.close();
-        if (!out) {
-            fail_file(file, "writing failed; " + why_unwritten() + ".");
-        }
     });
 }
 

@@ -299,14 +299,7 @@ std::string trace_text(const Trace& trace) {
 }
 
 void write_text(const std::string& path, const std::string& text) {
-    write_atomically(path, [&](const std::string& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
-        out << text;
-        out.close();
-        if (!out) {
-            throw InputError("The file '" + path + "' cannot be written: " + why_unwritten() + ".");
-        }
-    });
+    write_whole(path, [&](std::ostream& out) { out << text; });
 }
 
 void write_trace(const Trace& trace, const std::string& path) {

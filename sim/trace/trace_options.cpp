@@ -2,6 +2,7 @@
 #include "sim/trace/trace_options.hpp"
 
 #include <filesystem>
+#include <list>
 
 #include <CLI/App.hpp>
 
@@ -49,17 +50,18 @@ void add_block_log_option(CLI::App& command, BlockLogRequest& request) {
         ->type_name("BLOCK FILE");
 }
 
-void check_writable(const std::string& file) {
+void claim_output(const std::string& file) {
+    static std::list<OutputFolder> claimed; // until the program ends
     const std::filesystem::path path(file);
     const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-    const OutputFolder writable(folder, {path.filename().string()});
+    claimed.emplace_back(folder, std::vector<std::string>{path.filename().string()});
 }
 
 std::optional<Timeline::Config> timeline_of(const TraceRequest& request) {
     if (request.file.empty()) {
         return {};
     }
-    check_writable(request.file);
+    claim_output(request.file);
     Timeline::Config config;
     config.step = request.step == 0 ? kFirstStep : request.step;
     config.most_steps = request.step == 0 ? kUsualSteps : kMostSteps;

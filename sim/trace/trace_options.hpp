@@ -26,6 +26,6 @@ void add_block_log_option(CLI::App& command, BlockLogRequest& request);
 /// Empty without --trace. Throws InputError if the file cannot be written, before a long run.
 std::optional<Timeline::Config> timeline_of(const TraceRequest& request);
 /// Throws InputError if a file of that name cannot be written.
-void check_writable(const std::string& file);
+void claim_output(const std::string& file);
 
 } // namespace degs::sim

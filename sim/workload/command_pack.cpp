@@ -70,13 +70,8 @@ std::vector<FrameToPack> frames_for(const std::vector<NamedConfig>& designs, con
 }
 
 void write_bytes(const std::string& path, const std::string& bytes) {
-    write_atomically(path, [&](const std::string& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
+    write_whole(path, [&](std::ostream& out) {
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        out.close();
-        if (!out) {
-            fail_file(path, "writing failed; " + why_unwritten() + ".");
-        }
     });
 }
 

@@ -2,8 +2,8 @@
 #include "sim/workload/workload_export.hpp"
 
 #include <charconv>
-#include <fstream>
 #include <functional>
+#include <ostream>
 
 #include "scene/files/input_file.hpp"
 #include "scene/files/output_file.hpp"
@@ -15,8 +15,7 @@ namespace {
 /// Collects lines of numbers and writes them in blocks.
 class NumberTable {
 public:
-    NumberTable(const std::string& file, const std::string& header)
-        : out_(file, std::ios::binary), text_(header + "\n") {}
+    NumberTable(std::ostream& out, const std::string& header) : out_(out), text_(header + "\n") {}
 
     template <class First, class... Rest>
     void add(First first, Rest... rest) {
@@ -28,11 +27,10 @@ public:
             flush();
         }
     }
-    /// False if the file could not be written.
-    bool close() {
-        flush();
-        out_.close();
-        return static_cast<bool>(out_);
+    void flush() {
+        digest_.add_bytes(text_);
+        out_ << text_;
+        text_.clear();
     }
     std::uint64_t records() const { return records_; }
     std::string digest() const { return digest_.text(); }
@@ -45,13 +43,8 @@ private:
         char digits[32];
         text_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
     }
-    void flush() {
-        digest_.add_bytes(text_);
-        out_ << text_;
-        text_.clear();
-    }
 
-    std::ofstream out_;
+    std::ostream& out_;
     std::string text_;
     Digest digest_;
     std::uint64_t records_ = 0;
@@ -61,12 +54,10 @@ ExportedFile write_table(const OutputFolder& out, const std::string& name,
                          const std::string& header,
                          const std::function<void(NumberTable& table)>& fill) {
     ExportedFile file{name, 0, {}};
-    write_atomically(out.path(name), [&](const std::string& temporary) {
-        NumberTable table(temporary, header);
+    write_whole(out.path(name), [&](std::ostream& stream) {
+        NumberTable table(stream, header);
         fill(table);
-        if (!table.close()) {
-            fail_file(out.path(name), "writing failed; " + why_unwritten() + ".");
-        }
+        table.flush();
         file.records = table.records();
         file.xxh128 = table.digest();
     });

@@ -13,6 +13,7 @@ namespace degs {
 namespace {
 
 struct Inputs {
+    bool spared = false;
     std::mutex mutex;
     std::map<FileIdentity, std::string> names;
 };
@@ -62,10 +63,17 @@ std::optional<FileIdentity> identity_of_file(const std::string& path) {
     return FileIdentity{status.st_dev, status.st_ino};
 }
 
+void spare_inputs() {
+    Inputs& known = inputs();
+    const std::lock_guard<std::mutex> lock(known.mutex);
+    known.spared = true;
+}
+
 void remember_input(const std::string& path) {
-    if (const std::optional<FileIdentity> identity = identity_of_file(path)) {
-        Inputs& known = inputs();
-        const std::lock_guard<std::mutex> lock(known.mutex);
+    const std::optional<FileIdentity> identity = identity_of_file(path);
+    Inputs& known = inputs();
+    const std::lock_guard<std::mutex> lock(known.mutex);
+    if (identity && known.spared) {
         known.names.insert_or_assign(*identity, path);
     }
 }

@@ -23,6 +23,9 @@ struct FileIdentity {
 /// Empty if there is no such file.
 std::optional<FileIdentity> identity_of_file(const std::string& path);
 
+/// From now on no result replaces a file that this process reads. For programs: who calls functions
+/// may read a file and write it again.
+void spare_inputs();
 /// Notes that `path` is read. Any thread may call it.
 void remember_input(const std::string& path);
 

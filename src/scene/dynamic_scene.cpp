@@ -126,9 +126,9 @@ std::vector<std::string> sequence_files(const std::string& path) {
     for (const fs::directory_entry& entry :
          fs::directory_iterator(home.empty() ? fs::path(".") : home, error)) {
         const std::string name = entry.path().filename().string();
-        if (entry.is_regular_file(error) &&
-            (folder ? has_scene_extension(name) : matches_pattern(name, pattern))) {
+        if (folder ? has_scene_extension(name) : matches_pattern(name, pattern)) {
             files.push_back((home / name).string());
+            require_regular(files.back()); // no frame is left out in silence
         }
     }
     if (files.empty()) {

@@ -84,7 +84,7 @@ TEST(HostileScene, EveryMistakeHasItsSentence) {
         {folder.write("scene.obj", "x"), "the extension '.obj' is not that of a scene file"},
         {folder.write("scene", "x"), "the extension ''"},
         {folder.path("good.ply") + "/scene.ply", "."},
-        {"/dev/null", "not a regular file"},
+        {"/dev/null", "pipe, socket or device"},
         {"", "there is no such file"},
         {"synthetic:", "There is no synthetic scene ''"},
         {"synthetic:moon",

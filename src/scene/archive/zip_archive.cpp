@@ -26,6 +26,12 @@ std::string words_of_error(int code) {
     return words;
 }
 
+/// Whether a file in an archive of `bytes` can have the sizes that the directory claims for it.
+bool is_possible(const zip_stat_t& facts, std::uint64_t bytes) {
+    return (facts.valid & ZIP_STAT_SIZE) != 0 && (facts.valid & ZIP_STAT_COMP_SIZE) != 0 &&
+           facts.comp_size <= bytes && facts.size / kMaxInflation <= facts.comp_size;
+}
+
 } // namespace
 
 void ZipArchive::Close::operator()(zip* archive) const {
@@ -45,6 +51,15 @@ ZipArchive::ZipArchive(const std::string& path) : path_(path), bytes_(InputFile(
                             std::to_string(kMaxFiles) + " are allowed.");
     }
     std::set<std::string> known;
+    std::uint64_t plain = 0;
+    for (std::int64_t i = 0; i < files; ++i) {
+        zip_stat_t facts;
+        zip_stat_init(&facts);
+        if (zip_stat_index(archive_.get(), i, 0, &facts) == 0 && is_possible(facts, bytes_)) {
+            plain += facts.size;
+        }
+    }
+    require_sane_growth(path, "what it holds", bytes_, plain);
     for (const std::string& name : names()) {
         if (!known.insert(name).second) { // programs differ in which of them they read
             fail_file(path, "the archive holds '" + visible(name.substr(0, 100)) +
@@ -76,12 +91,9 @@ std::string ZipArchive::read(const std::string& name, std::uint64_t limit_bytes)
         fail_file(path_, "the archive holds no file '" + visible(name.substr(0, 100)) +
                              "', which the scene needs.");
     }
-    const bool known =
-        (facts.valid & ZIP_STAT_SIZE) != 0 && (facts.valid & ZIP_STAT_COMP_SIZE) != 0;
-    if (!known || facts.comp_size > bytes_ || facts.size / kMaxInflation > facts.comp_size) {
+    if (!is_possible(facts, bytes_)) {
         fail_file(path_, inside + "claims a size that it cannot have; the file is damaged.");
     }
-    require_sane_growth(path_, inside.substr(0, inside.size() - 1), facts.comp_size, facts.size);
     if (facts.size > limit_bytes) {
         fail_file(path_, inside + "has " + std::to_string(facts.size) + " bytes; at most " +
                              std::to_string(limit_bytes) + " are allowed for it.");

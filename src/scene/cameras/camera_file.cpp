@@ -14,11 +14,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kHead = 64; // bytes that decide
 
-bool is_there(const fs::path& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored);
-}
-
 bool is_folder(const fs::path& path) {
     std::error_code ignored;
     return fs::is_directory(path, ignored);
@@ -32,6 +27,7 @@ Kind kind_of(const std::string& path) {
     InputFile file(path);
     std::string head(kHead, '\0');
     head.resize(file.read_some(head.data(), head.size()));
+    require_utf8(path, head);
     const std::string name = fs::path(path).filename().string();
     if (head.substr(0, 8).find('\0') != std::string::npos || head[0] == '#' ||
         name == "cameras.txt" || name == "images.txt" || name == "cameras.bin" ||
@@ -62,7 +58,7 @@ ColmapFiles colmap_of_file(const std::string& path) {
 /// A camera file in a folder; empty if there is none.
 std::string camera_file_in(const fs::path& folder) {
     for (const char* name : {"cameras.json", "transforms.json"}) {
-        if (is_there(folder / name)) {
+        if (name_exists(folder / name)) {
             return (folder / name).string();
         }
     }
@@ -108,7 +104,7 @@ std::string own_camera_file(const std::string& scene_file) {
 
 std::string cameras_beside(const std::string& scene_file) {
     const fs::path file(scene_file);
-    if (std::string own = own_camera_file(scene_file); is_there(own)) {
+    if (std::string own = own_camera_file(scene_file); name_exists(own)) {
         return own;
     }
     std::string found = camera_file_in(file.parent_path());
@@ -120,7 +116,7 @@ std::string cameras_beside(const std::string& scene_file) {
 
 std::vector<std::string> files_of_cameras(const std::string& path) {
     const fs::path file(path);
-    if (path.empty() || !is_there(file)) {
+    if (path.empty() || !name_exists(file)) {
         return {path};
     }
     const ColmapFiles files = colmap_in(is_folder(file) ? path : file.parent_path().string());

@@ -50,6 +50,10 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 std::array<std::size_t, kColumns.size()> columns_of(const CameraPlace& place,
                                                     const std::vector<std::string_view>& names) {
     std::array<std::size_t, kColumns.size()> columns{};
+    if (names.size() == 1 && names.front().find(kColumns.front()) != std::string_view::npos) {
+        place.fail("has one cell, " + in_quotes(names.front()) +
+                   "; commas separate the columns, and no other character does.");
+    }
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
         const auto found = std::find(names.begin(), names.end(), kColumns[i]);
         const auto count = std::count(names.begin(), names.end(), kColumns[i]);

@@ -42,8 +42,7 @@ glm::dmat4 read_trained_frame(const std::string& path) {
 std::string trained_frame_beside(const std::string& scene_file) {
     const std::filesystem::path file =
         std::filesystem::path(scene_file).parent_path() / "dataparser_transforms.json";
-    std::error_code ignored;
-    return std::filesystem::exists(file, ignored) ? file.string() : "";
+    return name_exists(file) ? file.string() : "";
 }
 
 void move_into_trained_frame(const std::string& path, CameraFile& file) {

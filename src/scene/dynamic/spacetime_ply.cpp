@@ -133,8 +133,7 @@ void write_spacetime_ply(const SpacetimeCloud& scene, const std::string& path) {
         }
     }
     header += "end_header\n";
-    write_atomically(path, [&](const std::string& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
+    write_whole(path, [&](std::ostream& out) {
         out << header;
         for (const SpacetimeGaussian& gaussian : scene) {
             std::string row;
@@ -145,10 +144,6 @@ void write_spacetime_ply(const SpacetimeCloud& scene, const std::string& path) {
                 row.append(field.name == "trbf_scale" ? 3 * sizeof(float) : 0, '\0');
             }
             out << row;
-        }
-        out.close();
-        if (!out) {
-            fail_file(path, "the scene could not be written completely; is the disk full?");
         }
     });
 }

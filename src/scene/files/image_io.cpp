@@ -87,10 +87,11 @@ void write_whole_exr(const std::string& path, const Write& write) {
             write(named);
             stream.close(); // the library does not look at what its buffer holds at the end
             if (!stream) {
-                throw std::runtime_error(why_unwritten());
+                fail_file(path,
+                          "the image could not be written completely, " + why_unwritten() + ".");
             }
-        } catch (const std::exception& error) {
-            fail_file(path, std::string("the image could not be written (") + error.what() + ").");
+        } catch (const Iex::BaseExc&) { // its sentence names the temporary file
+            fail_file(path, "the image could not be written completely, " + why_unwritten() + ".");
         }
     });
 }

@@ -11,20 +11,8 @@ namespace degs {
 namespace {
 
 std::uint64_t checked_size(const std::string& path) {
-    if (path.find('\0') != std::string::npos) { // the system would not see what follows
-        throw InputError("The name of a file holds a zero: '" + visible(path) + "'.");
-    }
+    require_regular(path);
     std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (status.type() == std::filesystem::file_type::not_found) {
-        fail_file(path, "there is no such file" + nearby_file(path) + ".");
-    }
-    if (std::filesystem::is_directory(status)) {
-        fail_file(path, "this is a folder, and a file is needed.");
-    }
-    if (!std::filesystem::is_regular_file(status)) {
-        fail_file(path, "this is not a regular file, or its folder may not be read.");
-    }
     watch_input(path);
     const std::uint64_t size = std::filesystem::file_size(path, error);
     if (error) {
@@ -53,6 +41,15 @@ void require_sane_growth(const std::string& path, const std::string& what, std::
     }
 }
 
+void require_utf8(const std::string& path, std::string_view head) {
+    using namespace std::string_view_literals;
+    for (const std::string_view mark : {"\xff\xfe"sv, "\xfe\xff"sv, "\0\0\xfe\xff"sv}) {
+        if (head.substr(0, mark.size()) == mark) {
+            fail_file(path, "this is text in UTF-16 or UTF-32, and UTF-8 is needed.");
+        }
+    }
+}
+
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t kLongest = 40;
     std::string out = "'";
@@ -66,6 +63,35 @@ std::filesystem::path absolute_path(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::path absolute = std::filesystem::absolute(path, error);
     return error ? path : absolute;
+}
+
+bool name_exists(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
+}
+
+void require_regular(const std::string& path) {
+    if (path.find('\0') != std::string::npos) { // the system would not see what follows
+        throw InputError("The name of a file holds a zero: '" + visible(path) + "'.");
+    }
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) {
+        const fs::path target = fs::read_symlink(path, error);
+        fail_file(path, error ? "there is no such file" + nearby_file(path) + "."
+                              : "this is a link to '" + visible(target.string()) +
+                                    "', which does not exist.");
+    }
+    if (fs::is_directory(status)) {
+        fail_file(path, "this is a folder, and a file is needed.");
+    }
+    if (!fs::status_known(status)) {
+        fail_file(path, "the file cannot be looked at (" + error.message() + ").");
+    }
+    if (!fs::is_regular_file(status)) {
+        fail_file(path, "this is a pipe, socket or device, and a regular file is needed.");
+    }
 }
 
 InputFile::InputFile(const std::string& path)
@@ -120,6 +146,7 @@ std::string read_text(const std::string& path, std::uint64_t limit_bytes) {
     std::string text(file.size(), '\0');
     file.read_exactly(text.data(), text.size());
     watch.require_unchanged();
+    require_utf8(path, text);
     if (text.rfind(kByteOrderMark, 0) == 0) {
         text.erase(0, kByteOrderMark.size());
     }

@@ -15,6 +15,16 @@ namespace degs {
 /// Throws InputError "<path>: <sentence>".
 [[noreturn]] void fail_file(const std::string& path, const std::string& sentence);
 
+/// Whether there is something of this name, and be it a link that leads nowhere: whoever reads it
+/// then says what is wrong with it.
+bool name_exists(const std::filesystem::path& path);
+
+/// Throws InputError if `path` is not a regular file, or a link to one.
+void require_regular(const std::string& path);
+
+/// Throws InputError if a text begins with the byte order mark of UTF-16 or UTF-32.
+void require_utf8(const std::string& path, std::string_view head);
+
 /// Throws InputError if `packed` bytes would become far more than scenes ever do: a small file
 /// could fill the memory. `what` is the subject of the sentence.
 void require_sane_growth(const std::string& path, const std::string& what, std::uint64_t packed,

@@ -5,10 +5,13 @@
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <system_error>
 
 #include <unistd.h>
 
+#include "config/input_files.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/files/partial_file.hpp"
 
@@ -32,6 +35,7 @@ void check_target(const std::string& path) {
     if (!parent.empty() && !fs::is_directory(parent, error)) {
         fail_file(path, "the folder '" + parent.string() + "' does not exist; create it first.");
     }
+    refuse_input(path);
 }
 
 void put_in_place(const PartialFile& file, const std::string& path) {
@@ -39,14 +43,6 @@ void put_in_place(const PartialFile& file, const std::string& path) {
     fs::rename(file.name(), path, error);
     if (error) {
         fail_file(path, "the finished file cannot be put in its place (" + error.message() + ").");
-    }
-}
-
-/// Unlike std::filesystem::remove, it leaves folders alone.
-void remove_old_file(const std::string& path) {
-    if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != ENOTDIR) {
-        fail_file(path, "the file of an earlier run cannot be removed (" +
-                            std::generic_category().message(errno) + ").");
     }
 }
 
@@ -68,6 +64,13 @@ private:
 
 } // namespace
 
+void refuse_input(const std::string& path) {
+    if (const std::optional<std::string> input = input_at(path)) {
+        fail_file(path, "this command reads '" + *input +
+                            "', and a result would replace it; choose " + "another name.");
+    }
+}
+
 FileSet::FileSet() : before_(current_set) {
     current_set = this;
 }
@@ -82,7 +85,10 @@ void FileSet::publish(const std::vector<std::string>& old) {
     }
     const HeldSignals held;
     for (const std::string& path : old) {
-        remove_old_file(path);
+        refuse_input(path);
+    }
+    for (const std::string& path : old) {
+        remove_result(path);
     }
     std::stable_partition(files_.begin(), files_.end(), [&old](const Finished& finished) {
         return old.empty() || finished.path != old.front();
@@ -98,7 +104,7 @@ void write_atomically(const std::string& path,
     check_target(path);
     auto file = std::make_unique<PartialFile>(path);
     if (!file->exists()) {
-        fail_file(path, "the file cannot be written; check the permissions of its folder.");
+        fail_file(path, "the file cannot be written, " + why_unwritten() + ".");
     }
     errno = 0;
     write(file->name());
@@ -109,13 +115,46 @@ void write_atomically(const std::string& path,
     }
 }
 
+void write_whole(const std::string& path, const std::function<void(std::ostream&)>& write) {
+    write_atomically(path, [&](const std::string& temporary) {
+        std::ofstream out(temporary, std::ios::binary);
+        write(out);
+        out.close();
+        if (!out) {
+            fail_file(path, "the file could not be written completely, " + why_unwritten() + ".");
+        }
+    });
+}
+
 std::string why_unwritten() {
     const int reason = errno;
-    return reason == EMFILE || reason == ENFILE
-               ? "because too many files are open ('ulimit -n' says how many may be)"
-           : reason == EFBIG
-               ? "because the file would be larger than is allowed ('ulimit -f' says how large)"
-               : "the disk may be full";
+    switch (reason) {
+    case EMFILE:
+    case ENFILE:
+        return "because too many files are open ('ulimit -n' says how many may be)";
+    case EFBIG:
+        return "because the file would be larger than is allowed ('ulimit -f' says how large)";
+    case ENAMETOOLONG:
+        return "because its name is too long";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+        return "because its folder may not be written to";
+    case 0:
+    case ENOSPC:
+    case EDQUOT:
+        return "because the disk may be full";
+    default:
+        return "because the system says: " + std::generic_category().message(reason);
+    }
+}
+
+void remove_result(const std::string& path) {
+    refuse_input(path);
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != ENOTDIR && errno != EISDIR) {
+        fail_file(path, "the file of an earlier run cannot be removed (" +
+                            std::generic_category().message(errno) + ").");
+    }
 }
 
 bool takes_files(const std::string& folder) {

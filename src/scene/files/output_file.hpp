@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,13 +12,25 @@ namespace degs {
 /// Calls `write` with the name of a temporary file in the folder of `path`, then renames that
 /// file to `path`: readers see the old file or the whole new one, also if the run is killed. If
 /// `write` throws, the temporary file is removed. While a FileSet of the same thread lives, the set
-/// renames it. InputError if the folder is missing, cannot be written, or `path` is a folder.
+/// renames it. InputError if the folder is missing, cannot be written, `path` is a folder, or this
+/// command reads the file.
 void write_atomically(const std::string& path,
                       const std::function<void(const std::string& temporary)>& write);
 
-/// Why a stream of write_atomically() has failed, by what the system said last: the end of a
+/// As write_atomically(), and `write` puts the bytes of the file into a stream. InputError with the
+/// reason if not all of them arrive.
+void write_whole(const std::string& path, const std::function<void(std::ostream&)>& write);
+
+/// Why a file of write_atomically() has failed, by what the system said last: the end of a
 /// sentence.
 std::string why_unwritten();
+
+/// InputError if this command reads the file, which no result then replaces.
+void refuse_input(const std::string& path);
+
+/// Removes a file of an earlier run, if there is one; folders stay. InputError if it cannot be
+/// removed, or if this command reads it.
+void remove_result(const std::string& path);
 
 class PartialFile;
 

@@ -221,8 +221,7 @@ void write_glb(const GaussianCloud& cloud, const std::vector<Camera>& cameras,
         fail_file(path, "a GLB of " + std::to_string(cloud.size()) + " Gaussians would have " +
                             std::to_string(bytes) + " bytes; it must stay below 4 GiB.");
     }
-    write_atomically(path, [&](const std::string& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
+    write_whole(path, [&](std::ostream& out) {
         out << "glTF";
         put_u32(out, 2);
         put_u32(out, bytes);
@@ -232,10 +231,6 @@ void write_glb(const GaussianCloud& cloud, const std::vector<Camera>& cameras,
         out << "BIN" << '\0';
         for (const GlbColumn& column : columns) {
             write_column(out, column, cloud.size());
-        }
-        out.close();
-        if (!out) {
-            fail_file(path, "the scene could not be written completely; is the disk full?");
         }
     });
 }

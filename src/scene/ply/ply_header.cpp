@@ -62,7 +62,10 @@ public:
 
     PlyHeader parse() {
         if (const Words magic = next_line(); magic != Words{"ply"}) {
-            fail_file(file_.path(), "this is not a PLY file; its first line must be 'ply'.");
+            fail_file(
+                file_.path(),
+                std::string("this is not a PLY file; its first line must be 'ply'") +
+                    (text_.rfind(kByteOrderMark, 0) == 0 ? ", without a byte order mark." : "."));
         }
         parse_format(next_line());
         while (true) {

@@ -80,8 +80,7 @@ void write_values(std::ostream& out, std::vector<float>& values) {
 
 void write_ply(const GaussianCloud& cloud, const std::string& path) {
     constexpr std::size_t kBlock = 1 << 18; // values
-    write_atomically(path, [&](const std::string& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
+    write_whole(path, [&](std::ostream& out) {
         out << header_of(cloud);
         std::vector<float> values;
         for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -91,10 +90,6 @@ void write_ply(const GaussianCloud& cloud, const std::string& path) {
             }
         }
         write_values(out, values);
-        out.close();
-        if (!out) {
-            fail_file(path, "the scene could not be written completely; is the disk full?");
-        }
     });
 }
 

@@ -248,13 +248,8 @@ std::vector<std::string> write_spz(const GaussianCloud& cloud, const std::string
                                    const SpzWriteOptions& options) {
     SpzEncoder encoder(cloud, path, options);
     const std::string file = encoder.encode();
-    write_atomically(path, [&](const std::string& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
+    write_whole(path, [&](std::ostream& out) {
         out.write(file.data(), static_cast<std::streamsize>(file.size()));
-        out.close();
-        if (!out) {
-            fail_file(path, "the scene could not be written completely; is the disk full?");
-        }
     });
     return encoder.notes();
 }

@@ -87,6 +87,21 @@ TEST_F(PoseFile, RefusesWithTheLine) {
     }
 }
 
+TEST(PosePath, OtherTextsAreCalledWhatTheyAre) {
+    const test::Folder folder;
+    const auto complaint = [&](const std::string& text) {
+        const std::string file = folder.write("poses.csv", text);
+        return test::complaint([&] { read_poses(file); });
+    };
+    for (const char* head : {"time_s;x;y;z;qw;qx;qy;qz", "time_s\tx\ty", "\"time_s,x,y"}) {
+        EXPECT_THAT(complaint(std::string(head) + "\n1\n"), testing::HasSubstr("time_s"));
+    }
+    EXPECT_THAT(complaint("time_s;x;y\n"), test::IsSentenceWith("commas separate the columns"));
+    for (const std::string mark : {"\xff\xfe", "\xfe\xff"}) {
+        EXPECT_THAT(complaint(mark + "t"), test::IsSentenceWith("UTF-16"));
+    }
+}
+
 TEST(PosePath, TurnsAtConstantSpeedBetweenPoses) {
     const std::vector<Pose> poses{turned_about_y(1, 10, {0, 0, 0}),
                                   turned_about_y(3, 50, {4, 0, 2})};

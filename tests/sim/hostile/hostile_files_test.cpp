@@ -184,10 +184,68 @@ TEST(HostileOutput, OutputsReplaceNeitherInputsNorEachOther) {
     refused({"--camera-file", folder / "c.json", "--trace", folder / "c.json"}, "c.json");
     refused({"--maps", folder / "maps", "--trace", folder / "maps/tiles.exr"}, "tiles.exr");
     EXPECT_EQ(read_file(design), before);
+    const std::string both = folder / "both.stl";
+    refused({"--trace", both, "--memory-trace", both}, "both.stl");
+    refused({"--trace", both, "--block-log", "bank:0", folder / "./both.stl"}, "both.stl");
+    refused({"--block-log", "bank:0", both, "--memory-trace", both}, "both.stl");
     const Outcome in_place =
         degs({"scene", "convert", folder / "s.ply", "--out", folder / "./s.ply"});
     EXPECT_EQ(in_place.code, 2);
     EXPECT_NE(in_place.err.find("would replace"), std::string::npos) << in_place.err;
+}
+
+// Also of those whose names a command makes itself, and which it would remove before it begins.
+TEST(HostileOutput, NoResultReplacesAnInput) {
+    const Folder folder;
+    write_ply(folder / "s.ply", {Splat{}});
+    write_camera(folder / "c.json", {0, 0, -3});
+    std::ofstream(folder / "study.yaml")
+        << "study: s\ndesigns:\n  - include: " << config("degs-16")
+        << "\n    name: a\naxes: { packing.bytes: [x1, x2] }\nscenes: s.ply\nwidth: 48\n";
+    const std::string out = folder / "o";
+    const std::vector<std::string> view{"--scene", folder / "s.ply", "--width", "48"};
+    const std::vector<std::string> pixels{"--scene", folder / "s.ply"};
+    const std::vector<std::string> design{"n=" + config("degs-16")};
+    const std::vector<std::string> study{folder / "study.yaml"};
+    struct Case {
+        const char *command, *input, *copied;
+        std::vector<std::string> words;
+    };
+    const std::string explored = out + "/explore.json";
+    const std::vector<Case> cases{
+        {"accuracy", "accuracy.json", "c.json", pixels},
+        {"accuracy", "error-1-s-64x48-paper.exr", "c.json", pixels},
+        {"explore", "explore.json", "study.yaml", {explored, "--rungs", "1"}},
+        {"explore", "explore.json", "c.json", {study[0], "--rungs", "1"}},
+        {"sweep", "reports/000002.json", "c.json", study},
+        {"sweep", "study.json", "c.json", study},
+        {"compare",
+         "reports/1-s-camera0-48x36/1-n.json",
+         "c.json",
+         {design[0], view[0], view[1], view[2], view[3]}}};
+    for (const Case& each : cases) {
+        SCOPED_TRACE(std::string(each.command) + " " + each.input);
+        fs::remove_all(out);
+        std::vector<std::string> words{each.command};
+        words.insert(words.end(), each.words.begin(), each.words.end());
+        words.insert(words.end(), {"--out", out});
+        const bool explores_itself = each.words[0] == explored;
+        if (!explores_itself) {
+            EXPECT_EQ(degs(words).code, 0);
+        }
+        const std::string input = out + "/" + each.input;
+        fs::create_directories(fs::path(input).parent_path());
+        fs::copy_file(folder / each.copied, input, fs::copy_options::overwrite_existing);
+        fs::copy_file(folder / "s.ply", out + "/s.ply", fs::copy_options::overwrite_existing);
+        const std::string before = read_file(input);
+        if (!explores_itself) {
+            words.insert(words.end(), {"--camera-file", input});
+        }
+        const Outcome outcome = degs(words);
+        EXPECT_EQ(outcome.code, 2) << outcome.err;
+        EXPECT_NE(outcome.err.find(each.input), std::string::npos) << outcome.err;
+        EXPECT_EQ(read_file(input), before);
+    }
 }
 
 TEST(HostileInput, PipesAndDevicesAreRefused) {
@@ -204,6 +262,40 @@ TEST(HostileInput, PipesAndDevicesAreRefused) {
         expect_mistake(degs(little_run(folder / "o", "degs-64", {"--memory", file})), file);
     }
     ::setenv("DEGS_CACHE", "", 1);
+}
+
+TEST(HostileInput, LinksThatLeadNowhereAreCalledSo) {
+    const Folder folder;
+    write_ply(folder / "s.ply", {Splat{}});
+    for (const char* name : {"link.ply", "cameras.json", "transforms.json"}) {
+        fs::create_symlink("nowhere", folder / name);
+        const bool scene = std::string(name) == "link.ply";
+        expect_mistake(degs({"render", "--scene", folder / (scene ? name : "s.ply"), "--width",
+                             "48", "--out", folder / "o"}),
+                       std::string(name) + ": this is a link to 'nowhere', which does not exist");
+        fs::remove(folder / name);
+    }
+}
+
+TEST(HostileInput, NoFrameOfASequenceIsLeftOut) {
+    const Folder folder;
+    fs::create_directories(folder / "f");
+    write_ply(folder / "f/0.ply", {Splat{}});
+    const auto drawn = [&](const std::string& scene) {
+        return degs({"render", "--scene", scene, "--width", "48", "--out", folder / "o"});
+    };
+    const std::string broken = folder / "f/1.ply";
+    for (const std::string& scene : {folder / "f", folder / "f/*.ply"}) {
+        ASSERT_EQ(::mkfifo(broken.c_str(), 0600), 0);
+        expect_mistake(drawn(scene), "1.ply: this is a pipe, socket or device");
+        fs::remove(broken);
+        fs::create_symlink("nowhere", broken);
+        expect_mistake(drawn(scene), "1.ply: this is a link to 'nowhere'");
+        fs::remove(broken);
+        fs::create_directory(broken);
+        expect_mistake(drawn(scene), "1.ply: this is a folder");
+        fs::remove(broken);
+    }
 }
 
 TEST(HostileInput, APatternOfManyStarsIsQuick) {

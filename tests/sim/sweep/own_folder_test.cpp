@@ -102,8 +102,8 @@ TEST(OwnFolder, IsEmptiedWhenAnotherStudyBegins) {
 TEST(OwnFolder, IsNotTakenFromASweepThatRuns) {
     const Folder folder;
     const std::string out = folder / "out";
-    const pid_t child =
-        started({"sweep", study_of(folder, 0, "frames: 60\n" + std::string(kMany)), "--out", out});
+    const pid_t child = started(
+        {"sweep", study_of(folder, 0, "frames: 3000\n" + std::string(kMany)), "--out", out});
     while (!fs::exists(out + "/study.json")) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }

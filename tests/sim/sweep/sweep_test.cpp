@@ -24,10 +24,10 @@ std::string study(const Folder& folder, const std::string& lines) {
 }
 
 const char* const kTwelve = "axes:\n  gaussian_buffer.bytes: x1/2..x2 x2\n"
-                            "  packing.bytes: [6KB, 8KB]\ncameras: [0, 1]\n";
+                            "  span.count: [4, 8]\ncameras: [0, 1]\n";
 /// 5 x 3 x 2, of which all can be built.
 const char* const kThirty = "axes:\n  gaussian_buffer.bytes: x1/2..x8 x2\n"
-                            "  packing.bytes: [6KB, 7KB, 8KB]\n"
+                            "  span.count: [2, 4, 8]\n"
                             "  memory.bandwidth_gb_per_s: [102.4GB/s, 204.8GB/s]\n";
 
 Outcome sweep(const std::string& file, const std::string& out,
@@ -97,7 +97,7 @@ TEST(SweepRuns, AgreeWithSingleRuns) {
     }
     EXPECT_EQ(own, other);
     const std::string csv = read_file(folder / "o/results.csv");
-    EXPECT_EQ(csv.rfind("point,design,gaussian_buffer.bytes,packing.bytes,accelerator,", 0), 0U);
+    EXPECT_EQ(csv.rfind("point,design,gaussian_buffer.bytes,span.count,accelerator,", 0), 0U);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
     EXPECT_EQ(csv.find("host"), std::string::npos);
     EXPECT_TRUE(fs::exists(folder / "o/host.csv"));
@@ -284,7 +284,7 @@ TEST(SweepCommand, OptionsReplaceTheStudysViews) {
 // As if the design's file had it, whoever runs the points.
 TEST(SweepRuns, TakeOverridesOfAllDesigns) {
     const Folder folder;
-    const std::string axis = "axes:\n  packing.bytes: [16KB, 32KB]\n";
+    const std::string axis = "axes:\n  span.count: [4, 8]\n";
     const std::string file = study(folder, axis);
     const std::vector<std::string> set{"--set", "memory.latency_ns=50", "--set",
                                        "degs-64:slicing.count=4"};
@@ -298,7 +298,7 @@ TEST(SweepRuns, TakeOverridesOfAllDesigns) {
     const auto mistake = [&](const char* text, const char* words) {
         expect_mistake(degs({"sweep", file, "--out", folder / "m", "--set", text}), words);
     };
-    mistake("packing.bytes=16384", "is varied by an axis at ");
+    mistake("span.count=4", "is varied by an axis at ");
     mistake("gbu-64:tile_size=16", "no configuration is called so");
     mistake("packing.byte=1024", "did you mean");
 }
