@@ -103,6 +103,14 @@ void OutputFolder::write_json(const std::string& file, const nlohmann::ordered_j
     write_text(file, json_text(value));
 }
 
+void OutputFolder::remove(const std::vector<std::string>& files) const {
+    std::vector<std::string> paths;
+    for (const std::string& file : files) {
+        paths.push_back(path(file));
+    }
+    remove_results(paths);
+}
+
 void OutputFolder::replace(const std::function<void()>& write,
                            const std::vector<std::string>& others) const {
     FileSet files;

@@ -27,6 +27,9 @@ public:
     void write_text(const std::string& file, const std::string& text) const;
     /// Writes the value as json_text() shows it, whole or not at all.
     void write_json(const std::string& file, const nlohmann::ordered_json& value) const;
+    /// Removes files of an earlier run, those that are there. Throws InputError, before any is
+    /// removed, if one of them is an input of this process.
+    void remove(const std::vector<std::string>& files) const;
     /// Calls `write`, then puts the files that it has written in the place of all `files` and of
     /// `others` (paths): the folder holds the results before or after, or no document. Does nothing
     /// else if `write` throws or writes nothing.

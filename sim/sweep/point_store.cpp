@@ -16,8 +16,6 @@
 #include "base/json_text.hpp"
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
-#include "scene/files/input_file.hpp"
-#include "scene/files/output_file.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/message_fields.hpp"
@@ -101,26 +99,18 @@ bool is_report(const std::string& file) {
 /// Before the folder says that it is of another study.
 void remove_results(const OutputFolder& folder) {
     std::error_code none;
-    std::vector<fs::path> old;
-    for (const std::string& file : sweep_files()) {
-        old.emplace_back(folder.path(file));
-    }
+    std::vector<std::string> old = sweep_files();
     const std::vector<std::string> of_search = search_files();
-    const bool searched = fs::exists(folder.path(of_search.front()), none); // else the user's
-    for (std::size_t k = 0; searched && k < of_search.size(); ++k) {
-        old.emplace_back(folder.path(of_search[k]));
+    if (fs::exists(folder.path(of_search.front()), none)) { // else they are the user's
+        old.insert(old.end(), of_search.begin(), of_search.end());
     }
     for (const auto& file : fs::directory_iterator(folder.path("reports"), none)) {
-        if (is_report(file.path().filename().string())) {
-            old.push_back(file.path());
+        const std::string name = file.path().filename().string();
+        if (is_report(name)) {
+            old.push_back("reports/" + name);
         }
     }
-    for (const fs::path& file : old) {
-        refuse_input(file.string());
-    }
-    for (const fs::path& file : old) {
-        remove_result(file.string());
-    }
+    folder.remove(old);
 }
 
 /// Makes the folder one of this study, and returns what it says then. Of a killed sweep, processes
@@ -267,7 +257,7 @@ void PointStore::keep(std::size_t point, const StoredPoint& found) const {
     MessageWriter writer(heading(point));
     each_part(writer, frame, path);
     points_.write_text(keys_[point] + kPointFile, sealed(writer.message));
-    remove_result(points_.path(keys_[point] + kFailedFile));
+    points_.remove({keys_[point] + kFailedFile});
 }
 
 void PointStore::keep_failure(std::size_t point, const Failure& failure) const {
@@ -278,7 +268,7 @@ void PointStore::keep_failure(std::size_t point, const Failure& failure) const {
 void PointStore::put_reports(std::size_t point, const std::optional<StoredPoint>& found) const {
     const auto put = [this](const std::string& file, const std::string* report) {
         if (report == nullptr) {
-            remove_result(reports_.path(file));
+            reports_.remove({file});
         } else if (read_whole(reports_.path(file)) != *report) {
             reports_.write_text(file, *report);
         }
@@ -295,10 +285,10 @@ void PointStore::sweep_up() const {
 }
 
 void PointStore::drop_other_reports() const {
-    for (std::size_t point = keys_.size(); name_exists(reports_.path(file_of(point, kReportFile)));
-         ++point) {
-        remove_result(reports_.path(file_of(point, kReportFile)));
-        remove_result(reports_.path(file_of(point, kReportOfPath)));
+    std::error_code none;
+    for (std::size_t point = keys_.size();
+         fs::exists(reports_.path(file_of(point, kReportFile)), none); ++point) {
+        reports_.remove({file_of(point, kReportFile), file_of(point, kReportOfPath)});
     }
 }
 

@@ -22,6 +22,14 @@ namespace fs = std::filesystem;
 
 thread_local FileSet* current_set = nullptr;
 
+/// What a command reads, no result replaces.
+void refuse_input(const std::string& path) {
+    if (const std::optional<std::string> input = input_at(path)) {
+        fail_file(path, "this command reads '" + *input +
+                            "', and a result would replace it; choose " + "another name.");
+    }
+}
+
 void check_target(const std::string& path) {
     std::error_code error;
     if (path.empty()) {
@@ -64,13 +72,6 @@ private:
 
 } // namespace
 
-void refuse_input(const std::string& path) {
-    if (const std::optional<std::string> input = input_at(path)) {
-        fail_file(path, "this command reads '" + *input +
-                            "', and a result would replace it; choose " + "another name.");
-    }
-}
-
 FileSet::FileSet() : before_(current_set) {
     current_set = this;
 }
@@ -84,12 +85,7 @@ void FileSet::publish(const std::vector<std::string>& old) {
         return;
     }
     const HeldSignals held;
-    for (const std::string& path : old) {
-        refuse_input(path);
-    }
-    for (const std::string& path : old) {
-        remove_result(path);
-    }
+    remove_results(old);
     std::stable_partition(files_.begin(), files_.end(), [&old](const Finished& finished) {
         return old.empty() || finished.path != old.front();
     });
@@ -149,11 +145,15 @@ std::string why_unwritten() {
     }
 }
 
-void remove_result(const std::string& path) {
-    refuse_input(path);
-    if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != ENOTDIR && errno != EISDIR) {
-        fail_file(path, "the file of an earlier run cannot be removed (" +
-                            std::generic_category().message(errno) + ").");
+void remove_results(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths) {
+        refuse_input(path);
+    }
+    for (const std::string& path : paths) {
+        if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != ENOTDIR && errno != EISDIR) {
+            fail_file(path, "the file of an earlier run cannot be removed (" +
+                                std::generic_category().message(errno) + ").");
+        }
     }
 }
 

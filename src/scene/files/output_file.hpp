@@ -25,12 +25,9 @@ void write_whole(const std::string& path, const std::function<void(std::ostream&
 /// sentence.
 std::string why_unwritten();
 
-/// InputError if this command reads the file, which no result then replaces.
-void refuse_input(const std::string& path);
-
-/// Removes a file of an earlier run, if there is one; folders stay. InputError if it cannot be
-/// removed, or if this command reads it.
-void remove_result(const std::string& path);
+/// Removes files of an earlier run, those that are there; folders stay. InputError, before any is
+/// removed, if this command reads one of them, and if one cannot be removed.
+void remove_results(const std::vector<std::string>& paths);
 
 class PartialFile;
 
