@@ -44,6 +44,8 @@ struct Frame {
 
 /// Letters, digits and '-' of a name, for files.
 std::string file_word(std::string name) {
+    constexpr std::size_t kLongest = 100; // the number in front tells rows apart
+    name.resize(std::min(name.size(), kLongest));
     for (char& c : name) {
         const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
         c = letter || (c >= '0' && c <= '9') ? c : '-';

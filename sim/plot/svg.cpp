@@ -164,12 +164,16 @@ std::string fitting(const std::string& words, double size, double width) {
     if (text_width(words, size) <= width) {
         return words;
     }
-    std::string kept = words;
-    while (!kept.empty() && text_width(kept + "…", size) > width) {
-        while (kept.size() > 1 && !starts_character(kept.back())) {
-            kept.pop_back();
+    std::string kept; // from the front, because names may be long
+    for (std::size_t at = 0; at < words.size();) {
+        std::string next(1, words[at]);
+        while (++at < words.size() && !starts_character(words[at])) {
+            next += words[at];
         }
-        kept.pop_back();
+        if (text_width(kept + next + "…", size) > width) {
+            break;
+        }
+        kept += next;
     }
     return kept + "…";
 }

@@ -66,6 +66,7 @@ OutputFolder::OutputFolder(std::string folder, const std::vector<std::string>& f
     }
     for (const std::string& file : files) {
         const std::string name = path(file);
+        require_name_fits(name);
         // Asked once: another part of a search may take the file away between two questions.
         const fs::file_status status = fs::status(name, error);
         if (fs::exists(status) && !fs::is_regular_file(status)) {
@@ -105,6 +106,7 @@ void OutputFolder::write_json(const std::string& file, const nlohmann::ordered_j
 
 void OutputFolder::remove(const std::vector<std::string>& files) const {
     std::vector<std::string> paths;
+    paths.reserve(files.size());
     for (const std::string& file : files) {
         paths.push_back(path(file));
     }

@@ -35,6 +35,7 @@ void check_target(const std::string& path) {
     if (path.empty()) {
         fail_file("''", "an output file needs a name.");
     }
+    require_name_fits(path);
     const fs::file_status status = fs::status(path, error);
     if (fs::exists(status) && !fs::is_regular_file(status)) { // never rename over a device
         fail_file(path, "this is a folder or device, and the name of a file to write is needed.");
@@ -93,6 +94,14 @@ void FileSet::publish(const std::vector<std::string>& old) {
         put_in_place(*finished.file, finished.path);
     }
     files_.clear();
+}
+
+void require_name_fits(const std::string& path) {
+    const std::size_t bytes = fs::path(path).filename().string().size();
+    if (bytes > kMostName) {
+        fail_file(path, "the name of this file has " + std::to_string(bytes) + " bytes; at most " +
+                            std::to_string(kMostName) + " are allowed.");
+    }
 }
 
 void write_atomically(const std::string& path,

@@ -9,6 +9,9 @@
 
 namespace degs {
 
+/// InputError if the name of the file, without its folder, is longer than file systems allow.
+void require_name_fits(const std::string& path);
+
 /// Calls `write` with the name of a temporary file in the folder of `path`, then renames that
 /// file to `path`: readers see the old file or the whole new one, also if the run is killed. If
 /// `write` throws, the temporary file is removed. While a FileSet of the same thread lives, the set

@@ -53,7 +53,6 @@ void forget_droppable(int place) {
 /// Unique among the threads of this process and, by its random part, among processes.
 std::string partial_name(const std::string& path) {
     static std::atomic<unsigned> next{0};
-    constexpr std::size_t kMostName = 255; // bytes that file systems allow
     const std::string ending =
         kPartial + std::to_string(std::random_device{}()) + "-" + std::to_string(next++);
     const std::filesystem::path file(path);

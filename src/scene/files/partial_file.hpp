@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace degs {
+
+constexpr std::size_t kMostName = 255; ///< bytes of the name of a file that file systems allow
 
 /// A file that is being written, beside the one that it will become. It is new and no link,
 /// whatever others have put into the folder, and locked, so that remove_partial_files() can tell it
