@@ -148,9 +148,8 @@ std::vector<std::string> legend_of(const std::vector<DrawnLine>& lines) {
     return labels;
 }
 
-/// The memory, and the dashed lines that are drawn.
-std::string explanation(const std::vector<BandwidthCurve>& curves,
-                        const std::vector<std::vector<DrawnLine>>& panels) {
+/// Of the dashed lines that are drawn.
+std::string explanation(const std::vector<std::vector<DrawnLine>>& panels) {
     bool across = false, upright = false;
     for (const std::vector<DrawnLine>& lines : panels) {
         for (const DrawnLine& line : lines) {
@@ -158,8 +157,7 @@ std::string explanation(const std::vector<BandwidthCurve>& curves,
             upright |= line.enough_gb_per_s.has_value();
         }
     }
-    return (have_one_memory(curves) ? "Memory: " + curves.front().memory + ". " : "") +
-           (across ? "Dashed across: memory without limit. " : "") +
+    return std::string(across ? "Dashed across: memory without limit. " : "") +
            (upright ? "Dashed upright, with numbers: from there on, 10 % more bandwidth gain less "
                       "than 1 %."
                     : "");
@@ -173,14 +171,15 @@ std::string bandwidth_picture(const StudyPlan& plan, const Comparison& compariso
         return "";
     }
     const std::string title = "Latency over the bandwidth of memory" +
-                              std::string(comparison.is_estimated() ? " (estimated)" : "");
+                              (have_one_memory(curves) ? ": " + curves.front().memory : "") +
+                              (comparison.is_estimated() ? " (estimated)" : "");
     std::vector<std::vector<DrawnLine>> panels;
     for (std::size_t v = 0; v < std::min(comparison.views.size(), kMostViews); ++v) {
         panels.push_back(drawn_lines(curves, v));
     }
     Svg svg;
     svg.text(kPlotMargin, 26, title, {16, kInk, "start", true});
-    svg.text(kPlotMargin, 46, explanation(curves, panels), {kSmallText, kGrey, "start", false});
+    svg.text(kPlotMargin, 46, explanation(panels), {kSmallText, kGrey, "start", false});
     double top = 60;
     for (std::size_t v = 0; v < panels.size(); ++v) {
         const std::vector<DrawnLine>& lines = panels[v];

@@ -110,7 +110,7 @@ TEST(Estimates, HaveThePictureOfBandwidth) {
                         << kEstimatedScene << "\nwidth: 320\nfidelity: analytic\n";
     expect_no_failure(degs({"sweep", file, "--out", folder / "out"}));
     const std::string picture = read_file(folder / "out/bandwidth.svg");
-    EXPECT_NE(picture.find("Latency over the bandwidth of memory (estimated)"), std::string::npos);
+    EXPECT_NE(picture.find("of memory: bus (estimated)"), std::string::npos);
     const std::vector<CsvRow> rows = rows_by_heading(read_file(folder / "out/results.csv"));
     ASSERT_EQ(rows.size(), 5U);
     EXPECT_EQ(std::stod(rows[0].at("dram.peak_gb_per_s")), 12.8);
