@@ -107,6 +107,14 @@ class Tables(unittest.TestCase):
                   for name in ["", "base/none", *(mutant.name for mutant in mutants)]}
         self.assertEqual(list(values.values()), [22, 22, 32, 21])
 
+    def test_a_skipped_test_has_not_failed(self):
+        line = " 1/2 Test #{}: platform/{} ........***{}   0.11 sec\n"
+        skipped = line.format(465, "Parameters", "Skipped")
+        self.assertIsNone(MUTANTS.failed_test(skipped + " 2/2 Test #7: dram/A .......   Passed    0.02 sec\n"))
+        for verdict in ("Failed", "Timeout", "Not Run", "Exception"):
+            failed = MUTANTS.failed_test(skipped + line.format(7, "Frames", verdict))
+            self.assertEqual((failed[1], failed[2]), ("platform/Frames", verdict))
+
     def test_a_row_belongs_to_one_form_of_an_entry(self):
         first = MUTANTS.Mutant("base", "src/base/a.cpp", "wrong", "1", "$", "")
         others = [MUTANTS.Mutant("base", "src/base/a.cpp", "wrong", *rest)
