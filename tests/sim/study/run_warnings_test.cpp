@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a single run warns of is said by whatever starts the same run.
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <random>
+#include <set>
+#include <sstream>
 
 #include <gmock/gmock.h>
 
@@ -66,6 +71,80 @@ TEST(StudyWarnings, AreNotOfIncludedFiles) {
     const std::string study = changed_study(folder, "", "span.count: [4, 8]");
     EXPECT_THAT(said_by("sweep", study, folder / "out"), Not(HasSubstr("no effect")));
 }
+
+/// "key 'x' is 3, but ..." of every warning, without the places.
+std::multiset<std::string> warned_of(const std::string& said) {
+    std::multiset<std::string> found;
+    std::istringstream lines(said);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t key = line.find(": key '");
+        if (line.rfind("degs: warning: ", 0) == 0 && key != std::string::npos) {
+            found.insert(line.substr(key + 2, line.find(" (", key) - key - 2));
+        }
+    }
+    return found;
+}
+
+class StudyOfWarnings : public testing::TestWithParam<unsigned> {};
+
+TEST_P(StudyOfWarnings, SaysWhatTheRunSays) {
+    struct Drawn {
+        const char* design;
+        std::vector<std::array<const char*, 3>> keys; ///< section, key and value
+    };
+    static const std::vector<Drawn> all{
+        {"degs-64",
+         {{"packing", "bytes", "65536"},
+          {"pixel_buffer", "bytes", "20000"},
+          {"pixel_buffer", "readout_pixels", "4000"},
+          {"span", "count", "1"},
+          {"slicing", "rows_per_cycle", "3"},
+          {"binning", "pairs_per_cycle", "4"}}},
+        {"gscore-64",
+         {{"pixel_buffer", "bytes", "9000"},
+          {"pixel_buffer", "readout_pixels", "4000"},
+          {"projection", "count", "2"}}},
+        {"gbu-64",
+         {{"pixel_buffer", "bytes", "40000"},
+          {"pixel_buffer", "readout_pixels", "4000"},
+          {"sorting", "count", "2"}}},
+        {"gcc-64", {{"image_buffer", "readout_pixels", "4000"}, {"colour", "units", "2"}}}};
+    std::mt19937 draw(GetParam());
+    const Drawn& drawn = all[draw() % all.size()];
+    const Folder folder;
+    std::map<std::string, std::string> sections;
+    std::vector<std::string> run{"run",
+                                 config(drawn.design),
+                                 "--scene",
+                                 "synthetic:single",
+                                 "--width",
+                                 "32",
+                                 "--no-reference",
+                                 "--no-cache",
+                                 "--out",
+                                 folder / "run"};
+    for (const auto& [section, key, value] : drawn.keys) {
+        if (draw() % 2 == 0) {
+            run.insert(run.end(), {"--set", std::string(section) + "." + key + "=" + value});
+            std::string& text = sections[section];
+            text += (text.empty() ? "" : ", ") + std::string(key) + ": " + value;
+        }
+    }
+    std::ofstream study(folder / "study.yaml");
+    study << "study: s\ndesigns:\n  - include: " << config(drawn.design) << "\n    name: d\n";
+    for (const auto& [section, keys] : sections) {
+        study << "    " << section << ": {" << keys << "}\n";
+    }
+    study << "axes: {clock_ghz: [1]}\nscenes: synthetic:single\nwidth: 32\nreference: false\n";
+    study.close();
+    const Outcome single = degs(run);
+    EXPECT_EQ(single.code, 0) << single.err;
+    EXPECT_EQ(warned_of(single.err),
+              warned_of(said_by("sweep", folder / "study.yaml", folder / "sweep")))
+        << single.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, StudyOfWarnings, testing::Range(0U, 40U));
 
 /// What is said of a design whose cost section includes a file.
 Outcome with_costs(const std::string& accelerator, const std::string& costs,

@@ -139,7 +139,7 @@ TEST(BandwidthCurves, NeverTakeAPointOfAnotherModelOfMemory) {
                             ", " + memory_file("lpddr5-6400x256") + "]\n");
     ASSERT_EQ(study.rows.size(), 4U);
     study.expect_elasticities({"memory.model"}, 1);
-    EXPECT_NE(study.picture.find("of memory: lpddr5<"), std::string::npos);
+    EXPECT_NE(study.picture.find("of memory: lpddr5 ("), std::string::npos);
     EXPECT_EQ(study.picture.find("Dashed across"), std::string::npos);
 }
 
@@ -148,7 +148,7 @@ TEST(BandwidthCurves, NeverTakeAPointOfAnotherLatencyOfMemory) {
                             "  memory.bandwidth_gb_per_s: [12.8, 25.6, 51.2, 204.8]\n");
     ASSERT_EQ(study.rows.size(), 8U);
     study.expect_elasticities({"memory.latency_ns"}, 4);
-    EXPECT_NE(study.picture.find("of memory: bus<"), std::string::npos);
+    EXPECT_NE(study.picture.find("of memory: bus ("), std::string::npos);
     EXPECT_NE(study.picture.find("memory.latency_ns=2000"), std::string::npos);
 }
 
