@@ -244,7 +244,8 @@ class Tests:
         self.numbers, self.limits = {}, {}
         for number, test in enumerate(listed["tests"], 1):
             properties = {entry["name"]: entry["value"] for entry in test.get("properties", [])}
-            if (re.search(NO_TESTS, test["name"]) or (rooms and test["name"].split("/")[0] not in rooms)
+            program = Path(test.get("command", [""])[0]).name
+            if (re.search(NO_TESTS, test["name"]) or (rooms and program not in {f"degs_{room}_tests" for room in rooms})
                     or set(properties.get("LABELS", [])) & NO_LABELS):
                 continue
             self.numbers[test["name"]] = number
@@ -376,7 +377,7 @@ def main(arguments=None):
     parser.add_argument("--build", help="folder of the copy (default: build/mutants)")
     parser.add_argument("--jobs", type=int, default=2, help="processes of the build and of the tests (default: 2)")
     parser.add_argument("--limit", type=int, default=120, help="seconds of a test (default: 120)")
-    parser.add_argument("--rooms", nargs="+", default=[], help="build and run the tests of these folders of tests alone")
+    parser.add_argument("--rooms", nargs="+", default=[], help="build and run the test programs of these folders alone")
     parser.add_argument("--results", help="table of the results (default: docs/mutants.csv)")
     parser.add_argument("--again", action="store_true", help="also what has a row")
     options = parser.parse_intermixed_args(arguments)

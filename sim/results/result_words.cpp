@@ -108,21 +108,26 @@ bool is_formula(const std::string& text) {
     return error == std::errc::invalid_argument || rest != end;
 }
 
-} // namespace
-
-std::string csv_cell(const std::string& given) {
-    std::string text = is_formula(given) ? "'" : "";
-    for (std::size_t at = 0;
-         at < given.size();) { // line ends of both kinds are what quotes are for
-        const std::size_t end = std::min(given.find("\r\n", at), given.size());
-        text += visible_lines(given.substr(at, end - at)) + (end < given.size() ? "\r\n" : "");
+/// As tables and terminals may see it. Line ends of both kinds stay: quotes are for them.
+std::string harmless(const std::string& text) {
+    std::string shown = is_formula(text) ? "'" : "";
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find("\r\n", at), text.size());
+        shown += visible_lines(text.substr(at, end - at)) + (end < text.size() ? "\r\n" : "");
         at = end + 2;
     }
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
-        return text;
+    return shown;
+}
+
+} // namespace
+
+std::string csv_cell(const std::string& text) {
+    const std::string shown = harmless(text);
+    if (shown.find_first_of(",\"\n") == std::string::npos) {
+        return shown;
     }
     std::string cell = "\"";
-    for (char c : text) {
+    for (char c : shown) {
         cell += c == '"' ? std::string("\"\"") : std::string(1, c);
     }
     return cell + "\"";
