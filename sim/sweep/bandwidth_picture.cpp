@@ -148,7 +148,7 @@ std::vector<std::string> legend_of(const std::vector<DrawnLine>& lines) {
     return labels;
 }
 
-/// Of the dashed lines that are drawn.
+/// What the dashed lines are that a picture has.
 std::string explanation(const std::vector<std::vector<DrawnLine>>& panels) {
     bool across = false, upright = false;
     for (const std::vector<DrawnLine>& lines : panels) {

@@ -107,6 +107,16 @@ TEST(ImageDifference, TheLargestErrorMayBeOfTheTransmittance) {
     EXPECT_NEAR(difference.psnr_db(), -10 * std::log10(0.0015 * 0.0015 / (36 * 3)), 1e-2);
 }
 
+TEST(ImageDifference, OfEqualErrorsTheFirstIsTheWorst) {
+    const Image a(6, 6);
+    Image b = a;
+    b.rgb[3 * b.at(1, 2)] = b.rgb[3 * b.at(4, 2) + 2] = b.rgb[3 * b.at(0, 5) + 1] = 0.5F;
+    ImageDifference difference;
+    difference.add(a, b);
+    EXPECT_EQ(difference.worst_x(), 1);
+    EXPECT_EQ(difference.worst_y(), 2);
+}
+
 TEST(ImageDifference, Subtracts) {
     const Image a = pattern(5, 5, 0);
     Image b = pattern(5, 5, 0.01F);
