@@ -122,7 +122,7 @@ std::string harmless(const std::string& text) {
 } // namespace
 
 std::string csv_cell(const std::string& text) {
-    const std::string shown = harmless(text);
+    std::string shown = harmless(text);
     if (shown.find_first_of(",\"\n") == std::string::npos) {
         return shown;
     }
