@@ -125,7 +125,7 @@ def test_a_mistake_is_one_sentence(arguments, sentence):
     ({"camera": True}, "camera is True, but needs a value."),
     ({"seed": True}, "seed is True, but needs a value."),
     ({"scene": "a\0b.ply"}, "cannot hold a zero"),
-    ({"keys": {"span.count": "1\0"}}, ""),
+    ({"keys": {"span.count": "1\0"}}, "span.count"),
     ({"camera_file": "\0"}, "cannot hold a zero"),
 ])
 def test_what_no_command_line_holds_is_refused(arguments, sentence):

@@ -68,12 +68,10 @@ std::map<std::string, ordered_json> designs_by_accelerator() {
         designs[name] = schema(default_run_config(name, {}));
     }
     // A file of cost constants has the rows of all accelerators, and a mistake in any is one.
-    const auto rows_of = [&designs](const std::string& design, const std::string& rows) {
-        return std::ref(designs.at(design)["properties"]["cost"]["properties"][rows]);
-    };
-    for (const std::string& name : accelerator_names()) {
+    const ordered_json::json_pointer costs("/properties/cost/properties");
+    for (auto& [name, design] : designs) {
         for (const std::string& other : accelerator_names()) {
-            rows_of(name, other).get() = rows_of(other, other);
+            design[costs][other] = ordered_json(designs.at(other)[costs][other]);
         }
     }
     return designs;

@@ -12,7 +12,7 @@ class Stopwatch {
 public:
     double seconds() const { return seconds_to(std::chrono::steady_clock::now()); }
     double seconds_to(std::chrono::steady_clock::time_point date) const {
-        // Clocks are steady by the book; those of virtual machines and test beds can be set back.
+        // The standard lets a steady clock never go back, but those of some virtual machines do.
         return std::max(0.0, std::chrono::duration<double>(date - start_).count());
     }
 

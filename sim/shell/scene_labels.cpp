@@ -5,6 +5,7 @@
 #include <set>
 
 #include "degs/error.hpp"
+#include "scene/files/input_file.hpp"
 #include "scene/scene.hpp"
 #include "scene/scene_spec.hpp"
 #include "sim/shell/scene_list.hpp"
@@ -49,7 +50,7 @@ NamedScene named(const std::string& scene) {
         const std::size_t mark = scene.rfind('?');
         named.settings = pieces_of(mark == std::string::npos ? "" : scene.substr(mark + 1));
     }
-    for (const fs::path& part : fs::absolute(spec.path).lexically_normal().relative_path()) {
+    for (const fs::path& part : absolute_path(spec.path).lexically_normal().relative_path()) {
         if (!part.empty()) {
             named.path.insert(named.path.begin(), part.string());
         }

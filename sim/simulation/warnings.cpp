@@ -14,7 +14,7 @@ namespace degs::sim {
 
 namespace {
 
-/// `of`: splats or pixels; `all`: how many there are; `how`: what the saturated ones do.
+/// `of` names what saturates, splats or pixels, of which there are `all`; `how` is the verb.
 std::string saturation_words(const Saturation& found, std::size_t all, const std::string& of,
                              const std::string& how) {
     return "Stage " + found.stage + " saturates: " + grouped(found.splats) + " of " + grouped(all) +

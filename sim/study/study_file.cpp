@@ -243,10 +243,6 @@ std::vector<Axis> read_axes(const ConfigNode& tree, const fs::path& folder) {
     return axes;
 }
 
-} // namespace
-
-namespace {
-
 bool has_included_keys(const ConfigNode& node) {
     return node.layer > 1 ||
            std::any_of(node.children.begin(), node.children.end(), has_included_keys);

@@ -148,7 +148,7 @@ std::vector<std::string> legend_of(const std::vector<DrawnLine>& lines) {
     return labels;
 }
 
-/// What the dashed lines are that a picture has.
+/// Says what the dashed lines of the panels mean.
 std::string explanation(const std::vector<std::vector<DrawnLine>>& panels) {
     bool across = false, upright = false;
     for (const std::vector<DrawnLine>& lines : panels) {

@@ -25,7 +25,8 @@ void add_memory_trace_option(CLI::App& command, std::string& file);
 void add_block_log_option(CLI::App& command, BlockLogRequest& request);
 /// Empty without --trace. Throws InputError if the file cannot be written, before a long run.
 std::optional<Timeline::Config> timeline_of(const TraceRequest& request);
-/// Throws InputError if a file of that name cannot be written.
+/// Keeps the name for the caller until the program ends. Throws InputError if no file of that name
+/// can be written, or if it is an input or another output of this command.
 void claim_output(const std::string& file);
 
 } // namespace degs::sim

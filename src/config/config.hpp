@@ -75,7 +75,7 @@ public:
         (void)in_proportion, (void)rule;
     }
     /// A design that can be built, but in which a part of a value is of no use. A reader warns only
-    /// if an override gives the key, because then somebody expects that it has an effect.
+    /// if an override or a study gives the key: then somebody expects that it has an effect.
     virtual void advise_if_set(bool of_use, const ConfigRule& rule) { (void)of_use, (void)rule; }
 
     /// Says that `key`, a value or a section, has no effect while `decider` has its present value;

@@ -54,6 +54,11 @@ std::array<std::size_t, kColumns.size()> columns_of(const CameraPlace& place,
         place.fail("has one cell, " + in_quotes(names.front()) +
                    "; commas separate the columns, and no other character does.");
     }
+    for (const std::string_view name : names) {
+        if (!name.empty() && name.front() == '"') {
+            place.fail("has the cell " + in_quotes(name) + ", whose quote does not end.");
+        }
+    }
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
         const auto found = std::find(names.begin(), names.end(), kColumns[i]);
         const auto count = std::count(names.begin(), names.end(), kColumns[i]);

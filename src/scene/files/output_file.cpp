@@ -25,8 +25,8 @@ thread_local FileSet* current_set = nullptr;
 /// What a command reads, no result replaces.
 void refuse_input(const std::string& path) {
     if (const std::optional<std::string> input = input_at(path)) {
-        fail_file(path, "this command reads '" + *input +
-                            "', and a result would replace it; choose " + "another name.");
+        fail_file(path, "a result would replace '" + *input +
+                            "', which this command reads; choose another name.");
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "splat/frame/pixel_rules.hpp"
 #include "splat/pixels/quantized_row.hpp"
 
 namespace degs {
@@ -84,15 +85,13 @@ public:
         g0_.count(g0_.beyond(record.limit));
         d0_.count(d0_.beyond(record.a * (2 * std::min(record.radius, columns) + 1)));
         term_.count(term_.beyond(largest_term(record)));
-        weight_.count(weight_.beyond(std::min(kMostAlpha, splat.opacity) * brightest(record)));
+        weight_.count(weight_.beyond(std::min(kAlphaMax, splat.opacity) * brightest(record)));
     }
     std::vector<const Field*> all() const {
         return {&distance_, &edge_, &g0_, &d0_, &term_, &weight_};
     }
 
 private:
-    static constexpr double kMostAlpha = 0.99;
-
     static double farthest(double from, double first, double last) {
         return std::max(std::abs(first - from), std::abs(last - from));
     }
