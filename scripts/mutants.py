@@ -238,7 +238,7 @@ class Tests:
     """The core suite of a build, for one ctest at a time in each of some folders."""
 
     def __init__(self, tree, rooms, limit):
-        self.build = tree / "build/release"
+        self.tree, self.build, self.suites, self.seconds = tree, tree / "build/release", {}, {}
         command = ["ctest", "--test-dir", self.build, "--show-only=json-v1"]
         listed = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
         self.numbers, self.limits = {}, {}
@@ -251,17 +251,42 @@ class Tests:
             self.numbers[test["name"]] = number
             self.limits[test["name"]] = min(limit, properties.get("TIMEOUT", limit))
 
+    def suites_of(self, folder):
+        """Suites of the sources of a folder of tests."""
+        if folder not in self.suites:
+            self.suites[folder] = {match[1] for file in folder.glob("*_test.cpp")
+                                   for match in re.finditer(r"^TEST(?:_[FP])?\((\w+),", file.read_text(), re.MULTILINE)}
+        return self.suites[folder]
+
     def groups(self, mutant):
-        """Names of tests, nearest first: of the block, of the room, the others."""
+        """Names of tests, nearest first: of the block, of its folder, of its room, others."""
         stem = Path(mutant.file).stem.replace("_", "")
         near = {stem, stem.replace("unit", ""), *Path(mutant.file).stem.split("_")}
         near = {word for word in near if len(word) > 3}
-        groups = [[], [], []]
+        place = Path(mutant.file).parent
+        suites = self.suites_of(self.tree / "tests" / (place if mutant.room == "sim" else place.relative_to("src")))
+        groups = [[], [], [], []]
         for name in self.numbers:
             own = name.split("/")[0] == mutant.room
             alike = any(word in name.lower().replace("_", "") for word in near)
-            groups[0 if own and alike else 1 if own else 2].append(name)
-        return [group for group in groups if group]
+            beside = name.split("/")[-1] in suites
+            groups[0 if own and alike else 1 if own and beside else 2 if own else 3].append(name)
+        return [part for group in groups for part in self.parts(group)]
+
+    def parts(self, group):
+        """Cheap tests first, in parts that may take as long as those before them: ctest has an order of its own."""
+        parts, spent = [[]], 1.0
+        for name in sorted(group, key=lambda name: self.seconds.get(name, 0)):
+            if sum(self.seconds.get(other, 0) for other in parts[-1]) > spent:
+                spent += sum(self.seconds.get(other, 0) for other in parts[-1])
+                parts.append([])
+            parts[-1].append(name)
+        return [part for part in parts if part]
+
+    def read_seconds(self, folder):
+        """What tests took in a run in this folder."""
+        lines = (folder / "Testing/Temporary/CTestCostData.txt").read_text(encoding="utf-8").splitlines()
+        self.seconds = {words[0]: float(words[2]) for words in map(str.split, lines) if len(words) == 3}
 
     def run(self, folder, names, mutant="", jobs=1):
         """The first test that fails and how, or None. The folder gives a ctest its own logs and limits."""
@@ -286,14 +311,16 @@ class Tests:
         return failed and failed[1] + (" (time)" if failed[2].startswith("Timeout") else "")
 
 
-def killer(tests, folder, mutant):
-    """The test that notices a mutant, or None; and the seconds that this took."""
+def killer(tests, folder, mutant, most):
+    """Whether all is said, after `most` seconds at most; the test that notices a mutant, or None; the seconds taken."""
     began = time.monotonic()
     for names in tests.groups(mutant):
+        if time.monotonic() - began > most:
+            return False, None, most
         test = tests.run(folder, names, mutant.name)
         if test:
-            return test, time.monotonic() - began
-    return None, time.monotonic() - began
+            return True, test, time.monotonic() - began
+    return True, None, time.monotonic() - began
 
 
 def read_rows(path):
@@ -319,6 +346,23 @@ def row_of(mutant, test, seconds):
                               mutant.digest)))
 
 
+def pass_without(tests, folder, jobs):
+    """All tests must pass without a mutant; once is enough for a copy."""
+    files = sorted(path for path in tests.tree.rglob("*")
+                   if path.is_file() and tests.build.parent not in path.parents)
+    state = hashlib.sha256(" ".join(tests.numbers).encode())
+    for path in files:
+        state.update(str(path.relative_to(tests.tree)).encode() + b"\0" + path.read_bytes())
+    passed = folder / "passed"
+    if not passed.exists() or passed.read_text(encoding="utf-8") != state.hexdigest():
+        print("first without a mutant", flush=True)
+        failed = tests.run(folder, list(tests.numbers), jobs=jobs)
+        if failed:
+            raise Refused(f"{failed} fails with no mutant selected")
+        passed.write_text(state.hexdigest(), encoding="utf-8")
+    tests.read_seconds(folder)
+
+
 def run(root, options):
     mutants, found = checked(root)
     results = Path(options.results or root / "docs/mutants.csv")
@@ -329,10 +373,8 @@ def run(root, options):
     copy_tree(root, folder / "tree", found)
     build(folder / "tree", scenes, options.rooms, options.jobs)
     tests = Tests(folder / "tree", options.rooms, options.limit)
-    print(f"{len(todo)} mutants, {len(tests.numbers)} tests; first without a mutant", flush=True)
-    failed = tests.run(folder / "none", list(tests.numbers), jobs=options.jobs)
-    if failed:
-        raise Refused(f"{failed} fails with no mutant selected")
+    print(f"{len(todo)} mutants, {len(tests.numbers)} tests", flush=True)
+    pass_without(tests, folder / "none", options.jobs)
     free = queue.SimpleQueue()
     for job in range(options.jobs):
         free.put(folder / f"job{job}")
@@ -340,14 +382,17 @@ def run(root, options):
     def work(mutant):
         place = free.get()
         try:
-            return mutant, *killer(tests, place, mutant)
+            return mutant, *killer(tests, place, mutant, options.most)
         finally:
             free.put(place)
 
     wrong = 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for done in concurrent.futures.as_completed([pool.submit(work, mutant) for mutant in todo]):
-            mutant, test, seconds = done.result()
+            mutant, decided, test, seconds = done.result()
+            if not decided:
+                print(f"later      {mutant.name}", flush=True)
+                continue
             rows[mutant.digest] = row_of(mutant, test, seconds)
             write_rows(results, mutants, rows)
             verdict = rows[mutant.digest]["verdict"]
@@ -377,6 +422,8 @@ def main(arguments=None):
     parser.add_argument("--build", help="folder of the copy (default: build/mutants)")
     parser.add_argument("--jobs", type=int, default=2, help="processes of the build and of the tests (default: 2)")
     parser.add_argument("--limit", type=int, default=120, help="seconds of a test (default: 120)")
+    parser.add_argument("--most", type=float, default=float("inf"), metavar="SECONDS",
+                        help="leave a mutant that lives longer for another run")
     parser.add_argument("--rooms", nargs="+", default=[], help="build and run the test programs of these folders alone")
     parser.add_argument("--results", help="table of the results (default: docs/mutants.csv)")
     parser.add_argument("--again", action="store_true", help="also what has a row")
