@@ -6,20 +6,19 @@ import copy
 import degs
 import numpy
 import pytest
-from conftest import ROOT
 from degs.design import keys_of, resolved, schema
 
 
-def test_every_shipped_design_reads_back_every_key():
-    for file in sorted((ROOT / "configs").glob("*.yaml")):
-        design = degs.Design(file.stem)
-        names = [name for name, _ in keys_of(schema()["$defs"][design.accelerator])]
-        assert len(names) > 100
-        again = degs.Design(design.accelerator)
-        for name in names:
-            if name != "accelerator":
-                again[name] = design[name]
-        assert again.yaml() == design.yaml(), file
+@pytest.mark.parametrize("name", ["degs-1024", "degs-64-tuned", "gscore-256", "gbu-16", "gcc-64", "orange-o4"])
+def test_a_shipped_design_reads_back_every_key(name):
+    design = degs.Design(name)
+    names = [name for name, _ in keys_of(schema()["$defs"][design.accelerator])]
+    assert len(names) > 100
+    again = degs.Design(design.accelerator)
+    for name in names:
+        if name != "accelerator":
+            again[name] = design[name]
+    assert again.yaml() == design.yaml()
 
 
 def test_no_method_hides_a_key():
