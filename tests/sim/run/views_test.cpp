@@ -62,7 +62,9 @@ TEST(ViewsOfARun, HaveAnImageEach) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out/image-2.png")); // of the run before
     EXPECT_EQ(report["views"]["first_frame"].size(), 3U);
     const json alone = report_of("degs-64", {"--camera", "2"});
-    EXPECT_EQ(report["views"]["first_frame"][2]["crc32"], alone["image"]["crc32"]);
+    for (const char* key : {"crc32", "psnr_db", "max_abs_error"}) {
+        EXPECT_EQ(report["views"]["first_frame"][2][key], alone["image"][key]) << key;
+    }
 }
 
 TEST(ViewsOfARun, ShareColoursWithAnError) {

@@ -138,6 +138,7 @@ TEST(Judgement, TakesTheMeanOrTheWorstOfTheViews) {
     EXPECT_EQ(*judged("max:worst(latency_ms)", "")[0].goals[0], 1); // of what shall be large
     EXPECT_EQ(*judged("max:worst(latency_ms)", "")[1].goals[0], 2);
     EXPECT_EQ(*judged("max:latency_ms-1", "")[0].goals[0], 0); // the mean of 0 and 3
+    EXPECT_EQ(*judged("max:3-latency_ms", "")[1].goals[0], 0); // of 1 and 0
 }
 
 TEST(Judgement, LooksAtLimits) {
