@@ -11,7 +11,6 @@
 #include "scene/cameras/eyes.hpp"
 #include "sim/process/reserve.hpp"
 #include "sim/process/stopwatch.hpp"
-#include "sim/simulation/loss_keys.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "splat/frame/shared_colours.hpp"
 
@@ -201,7 +200,6 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
     const CpuStopwatch clock;
     RunResult result;
     result.config = request.config;
-    result.movable_keys = LossKeys(result).movable();
     result.camera = frames.front()->camera;
     result.workload = facts_of(*frames.front());
     result.warnings = request.config.warnings;
