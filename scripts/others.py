@@ -22,7 +22,7 @@ LANDSCAPE, GARDEN, OBJECT = (f"synthetic:{name}" for name in ("landscape", "gard
 GAUSSIANS = {LANDSCAPE: 1026508, GARDEN: 1026508, OBJECT: 334000}  # Tanks & Temples train, NeRF-Synthetic Lego
 ONE, WIDE = "readings/gscore-64-published", "readings/gscore-256-published"
 SLOW, FAST = "memory.bandwidth_gb_per_s=51.2", "memory.bandwidth_gb_per_s=204.8"
-FOUR, SQUARES, STREAM = "clusters=4", "pipeline.tiles=reference", "binning.entries=stream"
+FOUR, SQUARES, STREAM = "clusters=4", "pipeline.tiles=square", "binning.entries=stream"
 # What configs/readings/gscore-64-published.yaml changes, for another design.
 ALIKE = ("pipeline.records=fp32", "traffic.sh=all", "binning.entries=entries", "binning.head_bytes=0",
          "sorting.memory_levels=2")
@@ -33,8 +33,8 @@ DESIGNS = {"as shipped, 51.2 GB/s, 64 lanes": ("gscore-64", SLOW),
 TRIED = {"`sorting.memory_levels=4`": (ONE, FOUR, "sorting.memory_levels=4"),
          "`array.subtile_skip=none`": (ONE, FOUR, "array.subtile_skip=none"),
          "`memory.bandwidth_gb_per_s=33.4`": (ONE, FOUR, "memory.bandwidth_gb_per_s=33.4"),
-         "`pipeline.tiles=reference`": (ONE, FOUR, SQUARES),
-         "`pipeline.tiles=reference`, `traffic.sh=visible`": (ONE, FOUR, SQUARES, "traffic.sh=visible")}
+         "`pipeline.tiles=square`": (ONE, FOUR, SQUARES),
+         "`pipeline.tiles=square`, `traffic.sh=visible`": (ONE, FOUR, SQUARES, "traffic.sh=visible")}
 STAGES = {"feature_extraction": ("geometry", "sh", "splats_written"),
           "sorting": ("tile_lists_written", "tile_lists_sorted", "list_heads"),
           "rasterisation": ("splats_read", "frame_buffer")}

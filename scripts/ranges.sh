@@ -67,9 +67,9 @@ degs-pixel | degs-64 | against | scheduler.termination=pixel
 degs-ends | degs-64 | against | pipeline.span_ends=exact
 degs-dead-rows | degs-64 | against | slicing.skip_dead_rows=true
 degs-tuned | degs-64-tuned | against | degs-64-tuned
-degs-squares | degs-64 | squares | pipeline.tiles=reference
-degs-squares-least | degs-64 | squares | pipeline.tiles=reference $narrow $limited
-degs-squares-most | degs-64 | squares | pipeline.tiles=reference $wide slicing.interleave=2
+degs-squares | degs-64 | squares | pipeline.tiles=square
+degs-squares-least | degs-64 | squares | pipeline.tiles=square $narrow $limited
+degs-squares-most | degs-64 | squares | pipeline.tiles=square $wide slicing.interleave=2
 degs-slow | degs-64 | slow | memory.bandwidth_gb_per_s=51.2
 gscore | gscore-64 | shipped |
 gscore-none | gscore-64 | open | array.subtile_skip=none
@@ -77,9 +77,9 @@ gscore-exact | gscore-64 | open | array.subtile_skip=exact
 gscore-clusters | gscore-64 | against | array.clusters=4
 gscore-deep | gscore-64 | against | array.termination_cycles=192 array.pipeline_cycles=192
 gscore-least | gscore-64 | against | array.subtile_skip=none array.termination_cycles=192 array.pipeline_cycles=192
-gscore-squares | gscore-64 | squares | pipeline.tiles=reference
-gscore-squares-exact | gscore-64 | squares | pipeline.tiles=reference array.subtile_skip=exact
-gscore-squares-none | gscore-64 | squares | pipeline.tiles=reference array.subtile_skip=none
+gscore-squares | gscore-64 | squares | pipeline.tiles=square
+gscore-squares-exact | gscore-64 | squares | pipeline.tiles=square array.subtile_skip=exact
+gscore-squares-none | gscore-64 | squares | pipeline.tiles=square array.subtile_skip=none
 gscore-slow | gscore-64 | slow | memory.bandwidth_gb_per_s=51.2
 gbu | gbu-64 | shipped |
 gbu-8-of-8 | gbu-64 | open | $engines engines.rows_per_cycle=1
@@ -91,14 +91,14 @@ gbu-long | gbu-64 | open | engines.queue_depth=64
 gbu-no-probe | gbu-64 | against | engines.end_probe=false
 gbu-least | gbu-64 | open | tile_size=64 engines.count=1 engines.row_pes=64 engines.rows_per_cycle=8 engines.queue_depth=1
 gbu-most | gbu-64 | open | $engines engines.rows_per_cycle=0 engines.queue_depth=64
-gbu-squares | gbu-64 | squares | pipeline.tiles=reference
-gbu-squares-most | gbu-64 | squares | pipeline.tiles=reference $engines engines.rows_per_cycle=0 engines.queue_depth=64
+gbu-squares | gbu-64 | squares | pipeline.tiles=square
+gbu-squares-most | gbu-64 | squares | pipeline.tiles=square $engines engines.rows_per_cycle=0 engines.queue_depth=64
 gbu-slow | gbu-64 | slow | memory.bandwidth_gb_per_s=51.2
 gcc | gcc-64 | shipped |
 gcc-2 | gcc-64 | open | array.discovery_cycles=2
 gcc-4 | gcc-64 | open | array.discovery_cycles=4
 gcc-8 | gcc-64 | open | array.discovery_cycles=8
-gcc-squares | gcc-64 | squares | pipeline.tiles=reference
+gcc-squares | gcc-64 | squares | pipeline.tiles=square
 gcc-slow | gcc-64 | slow | memory.bandwidth_gb_per_s=51.2
 END
 }
@@ -118,19 +118,19 @@ degs-$n-ports | degs-$n | open | $limited
 degs-$n-least | degs-$n | open | $narrow $limited
 degs-$n-pixel | degs-$n | against | scheduler.termination=pixel
 degs-$n-ends | degs-$n | against | pipeline.span_ends=exact
-degs-$n-squares | degs-$n | squares | pipeline.tiles=reference
+degs-$n-squares | degs-$n | squares | pipeline.tiles=square
 gscore-$n | gscore-$n | shipped |
 gscore-$n-none | gscore-$n | open | array.subtile_skip=none
 gscore-$n-exact | gscore-$n | open | array.subtile_skip=exact
-gscore-$n-squares | gscore-$n | squares | pipeline.tiles=reference
-gscore-$n-squares-none | gscore-$n | squares | pipeline.tiles=reference array.subtile_skip=none
+gscore-$n-squares | gscore-$n | squares | pipeline.tiles=square
+gscore-$n-squares-none | gscore-$n | squares | pipeline.tiles=square array.subtile_skip=none
 gbu-$n | gbu-$n | shipped |
 gbu-$n-small | gbu-$n | open | tile_size=16 engines.count=$((n / 8)) engines.row_pes=8 engines.rows_per_cycle=$((n < 64 ? 64 / n : 1))
 gbu-$n-all-rows | gbu-$n | open | engines.rows_per_cycle=0
 gbu-$n-small-all-rows | gbu-$n | open | tile_size=16 engines.count=$((n / 8)) engines.row_pes=8 engines.rows_per_cycle=0
 gbu-$n-short | gbu-$n | open | engines.queue_depth=1
 gbu-$n-long | gbu-$n | open | engines.queue_depth=64
-gbu-$n-squares | gbu-$n | squares | pipeline.tiles=reference
+gbu-$n-squares | gbu-$n | squares | pipeline.tiles=square
 END
     done
     echo "degs-16-most | degs-16 | open | $wide"

@@ -141,7 +141,7 @@ for resolution in 720p 1080p 2k; do
 done
 compare skip none=gscore-64 obb=gscore-64 exact=gscore-64 square=gscore-64 -- "${views[@]}" --cameras 2,1 --array-only \
     --set none:array.subtile_skip=none --set exact:array.subtile_skip=exact \
-    --set square:array.subtile_skip=none --set square:pipeline.tiles=reference
+    --set square:array.subtile_skip=none --set square:pipeline.tiles=square
 for camera in 2 1; do
     none=$(mean skip "$camera" none cycles)
     echo "| GSCore array, exact tile lists over 3-sigma squares, camera $camera |" \

@@ -97,15 +97,15 @@ std::string frame_key(const std::string& scene, const Camera& camera, int tile_s
     return out.bytes;
 }
 
-/// With exact tiles the image does not depend on their size, unless some of them are hidden.
+/// With whole ellipses the image does not depend on the size of tiles, unless some are hidden.
 std::string reference_key(const std::string& scene, const FrameWorkload& frame) {
     BinaryWriter out;
     out.put(std::string("reference"));
     out.put(scene);
     put_view(out, frame.camera, frame.projection, ProjectionNumbers().name());
-    out.put(frame.tile_mode);
-    const bool any_size = frame.tile_mode == TileMode::Exact && frame.camera.hole.empty();
-    out.put(any_size ? 0 : frame.tile_size);
+    const bool any = lists_whole_ellipse(frame.tile_mode) && frame.camera.hole.empty();
+    out.put(any ? TileMode::Exact : frame.tile_mode);
+    out.put(any ? 0 : frame.tile_size);
     return out.bytes;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs render: the reference image in double precision, no accelerator.
+#include <algorithm>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -21,7 +22,7 @@ namespace {
 
 struct RenderOptions {
     ViewRequest view;
-    std::string tiles = "exact";
+    TileMode tiles = TileMode::Exact;
     RenderingRules rules;
     int tile_size = 16;
     std::string out = "out";
@@ -43,8 +44,7 @@ RenderResult render(const RenderOptions& options, const View& view) {
     const Progress progress("reference image");
     const Stopwatch project;
     const FrameWorkload workload =
-        make_frame_workload(view.scene.cloud, view.camera, options.tile_size,
-                            options.tiles == "reference" ? TileMode::Reference : TileMode::Exact,
+        make_frame_workload(view.scene.cloud, view.camera, options.tile_size, options.tiles,
                             options.rules.options(view.scene.traits.antialiased));
     result.workload_s = project.seconds();
     result.workload = facts_of(workload);
@@ -147,12 +147,17 @@ void add_render_command(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("render", "render the reference image in double precision");
     add_view_options(*command, options->view);
+    const std::vector<const char*>& modes = tile_mode_names();
     command
-        ->add_option(
-            "--tiles", options->tiles,
-            "exact: tiles that the ellipse touches; reference: those of the 3-sigma square")
-        ->check(CLI::IsMember({"exact", "reference"}))
-        ->capture_default_str();
+        ->add_option_function<std::string>(
+            "--tiles",
+            [options, modes](const std::string& name) {
+                const auto mode = std::find(modes.begin(), modes.end(), name);
+                options->tiles = static_cast<TileMode>(mode - modes.begin());
+            },
+            kTileModesDoc)
+        ->check(CLI::IsMember(std::vector<std::string>(modes.begin(), modes.end())))
+        ->default_str(modes.front());
     add_rule_options(*command, options->rules);
     command->add_option("--tile-size", options->tile_size, "pixels")
         ->check(CLI::Range(1, 1024))

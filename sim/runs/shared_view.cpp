@@ -17,7 +17,8 @@ namespace degs::sim {
 
 void SharedView::render_references(TileMode mode) {
     const FrameWorkload& frame = frames.front();
-    const decltype(reference_kind) kind{mode == TileMode::Exact ? 0 : frame.tile_size, mode,
+    const bool any = lists_whole_ellipse(mode);
+    const decltype(reference_kind) kind{any ? 0 : frame.tile_size, any ? TileMode::Exact : mode,
                                         rule_kind(frame.projection)};
     if (!references.empty() && reference_kind == kind) {
         return;

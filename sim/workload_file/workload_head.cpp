@@ -29,11 +29,6 @@ constexpr std::uint64_t kMostGaussians = std::numeric_limits<std::uint32_t>::max
 constexpr int kMostTile = 1 << 16; // px, as of make_frame_workload()
 constexpr double kMostValue = 1e300;
 
-const std::vector<const char*>& tile_mode_words() {
-    static const std::vector<const char*> words{"exact", "reference"};
-    return words;
-}
-
 /// The formats of a projection with their names in the head.
 template <class Numbers, class Pass>
 void pass_formats(Numbers& numbers, Pass&& pass) {
@@ -178,7 +173,7 @@ ordered_json json_of(const PackedProjection& projection) {
 ordered_json json_of(const PackedFrame& frame) {
     ordered_json json{{"projection", frame.projection},
                       {"tile_size", frame.tile_size},
-                      {"tile_mode", tile_mode_words()[static_cast<std::size_t>(frame.tile_mode)]},
+                      {"tile_mode", tile_mode_names()[static_cast<std::size_t>(frame.tile_mode)]},
                       {"entries", frame.entries}};
     pass_culled(frame.culled, [&](const char* name, const std::uint64_t& count) {
         json["culled"][name] = count;
@@ -287,8 +282,7 @@ PackedFrame frame_in(const HeadReader& in, const WorkloadHead& head) {
     in.check("projection", !head.projections.empty(), "is not there");
     frame.projection = in.count("projection", 0, head.projections.size() - 1);
     frame.tile_size = in.number("tile_size", 1, kMostTile);
-    frame.tile_mode =
-        in.text("tile_mode", tile_mode_words()) == 0 ? TileMode::Exact : TileMode::Reference;
+    frame.tile_mode = static_cast<TileMode>(in.text("tile_mode", tile_mode_names()));
     const std::uint64_t splats = head.projections[frame.projection].splats;
     const HeadReader culled = in.part("culled");
     pass_culled(frame.culled, [&](const char* name, std::uint64_t& count) {
@@ -329,7 +323,7 @@ bool same_projection(const ProjectionOptions& a, const ProjectionOptions& b) {
 
 std::string frame_words(const ProjectionOptions& options, int tile_size, TileMode mode) {
     std::string words = std::to_string(tile_size) + " px tiles (" +
-                        tile_mode_words()[static_cast<std::size_t>(mode)] + "), " +
+                        tile_mode_names()[static_cast<std::size_t>(mode)] + "), " +
                         options.numbers.name();
     const ProjectionOptions usual;
     if (options.order != usual.order || options.compensated || options.dilation != usual.dilation ||

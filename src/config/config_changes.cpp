@@ -60,7 +60,7 @@ public:
     }
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override {
-        change(key, value, config_scalar::Choice{names}, doc);
+        change(key, value, config_scalar::Choice{names, doc}, doc);
     }
     bool visits_unused() const override { return outer_.visits_unused(); }
     /// Where the key is a text that stays as it is, the rule says what that is.

@@ -150,10 +150,10 @@ void ConfigReader::text(const char* key, std::string& value, const char*) {
 }
 
 void ConfigReader::choice(const char* key, int& value, const std::vector<const char*>& names,
-                          const char*) {
+                          const char* doc) {
     const int before = value;
     const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
-        value = value_of(config_scalar::Choice{names}, node, path);
+        value = value_of(config_scalar::Choice{names, doc}, node, path);
     });
     if (!given) {
         const std::int64_t last = names.size() - 1;

@@ -114,7 +114,11 @@ std::string Choice::values() const {
 }
 
 std::string Choice::allowed(const ConfigNode& node) const {
-    const std::string near = config_words::nearest(node.text, {names.begin(), names.end()});
+    const std::vector<std::string> words(names.begin(), names.end());
+    std::string near = config_words::nearest(node.text, words);
+    if (near.empty()) {
+        near = config_words::described(node.text, words, doc);
+    }
     return "one of " + values() + (near.empty() ? "" : " (did you mean " + quote(near) + "?)");
 }
 

@@ -5,8 +5,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 #include "base/visible_text.hpp"
 
@@ -104,6 +106,29 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
         }
     }
     return best;
+}
+
+std::string described(const std::string& word, const std::vector<std::string>& candidates,
+                      const std::string& doc) {
+    constexpr std::size_t kShortestWord = 4; // shorter ones are in every description
+    std::string found;
+    std::istringstream parts(doc);
+    for (std::string part; word.size() >= kShortestWord && std::getline(parts, part, ';');) {
+        std::istringstream description(part);
+        std::string name;
+        description >> name;
+        const bool has = std::find(std::istream_iterator<std::string>(description), {}, word) !=
+                         std::istream_iterator<std::string>();
+        const auto candidate = std::find_if(candidates.begin(), candidates.end(),
+                                            [&](const auto& one) { return one + ":" == name; });
+        if (has && candidate != candidates.end()) {
+            if (!found.empty()) {
+                return "";
+            }
+            found = *candidate;
+        }
+    }
+    return found;
 }
 
 } // namespace degs::config_words

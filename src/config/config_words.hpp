@@ -29,4 +29,9 @@ std::string range(double low, double high);
 /// letters differ for all of them.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
+/// Returns the only candidate whose description in `doc` ("candidate: description; ...") has
+/// `word`, one of at least four letters; else an empty text.
+std::string described(const std::string& word, const std::vector<std::string>& candidates,
+                      const std::string& doc);
+
 } // namespace degs::config_words

@@ -121,7 +121,8 @@ INSTANTIATE_TEST_SUITE_P(Numbers, SmallRunCrops, ::testing::Values("fp32", "pape
 TEST(Crops, HaveThePixelsOfTheWholeReference) {
     const GaussianCloud cloud = test::random_cloud(400, 8, 2);
     const Camera whole = whole_view();
-    for (const TileMode mode : {TileMode::Exact, TileMode::Reference}) {
+    for (const TileMode mode :
+         {TileMode::Exact, TileMode::Square, TileMode::Box, TileMode::Tight}) {
         ReferenceCounts counts;
         const Image image = render_reference(make_frame_workload(cloud, whole, 16, mode), counts);
         for (const PixelBox& part : crops()) {

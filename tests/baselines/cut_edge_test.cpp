@@ -179,7 +179,7 @@ TEST(CutEdge, IsPartOfWhatBoundsASplat) {
                 EXPECT_EQ(bounds.y1, bottom);
                 EXPECT_TRUE(box.meets(right, y, 1) && box.meets(x, bottom, 1));
                 std::vector<TileRun> runs;
-                cover_ellipse(splat, TileGrid{kSide, kSide, 1}, runs);
+                cover_tiles(splat, TileGrid{kSide, kSide, 1}, TileMode::Exact, runs);
                 ASSERT_EQ(runs.size(), 2U * n * ellipse.y + 1);
                 EXPECT_EQ(runs.back().first, x);
                 EXPECT_EQ(runs[n * ellipse.y].last, right);

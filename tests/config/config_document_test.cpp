@@ -18,14 +18,15 @@ TEST(ConfigResolved, IsNestedTypedAndNamesChoices) {
 
 TEST(ConfigResolved, YamlIsReadableAndLoadsBack) {
     Keys keys;
-    EXPECT_EQ(resolved_yaml(keys), "banks: 8  # Issue Banks\n"
-                                   "seed: 1  # of the random numbers\n"
-                                   "order: morton  # of the tiles\n"
-                                   "title: \"default\"  # for the report\n"
-                                   "memory:  # the memory behind the accelerator\n"
-                                   "  latency_ns: 100.5  # ns, request to last byte\n"
-                                   "  access_bytes: 64  # bytes, granularity\n"
-                                   "  refresh: true  # whether | rows are refreshed\n");
+    EXPECT_EQ(resolved_yaml(keys),
+              "banks: 8  # Issue Banks\n"
+              "seed: 1  # of the random numbers\n"
+              "order: morton  # of the tiles; morton: a Z curve; hilbert: a curve without jumps\n"
+              "title: \"default\"  # for the report\n"
+              "memory:  # the memory behind the accelerator\n"
+              "  latency_ns: 100.5  # ns, request to last byte\n"
+              "  access_bytes: 64  # bytes, granularity\n"
+              "  refresh: true  # whether | rows are refreshed\n");
     keys.seed = std::numeric_limits<std::int64_t>::min();
     keys.memory.latency_ns = 1.0 / 3.0;
     keys.title = "a \"b\"\n\\ : # \t\x01 caf\xc3\xa9";

@@ -35,7 +35,8 @@ struct Keys {
     void describe(ConfigVisitor& v) {
         v.integer("banks", banks, 1, 64, "Issue Banks");
         v.integer("seed", seed, INT64_MIN, INT64_MAX, "of the random numbers");
-        v.choice("order", order, {"row-major", "morton", "hilbert"}, "of the tiles");
+        v.choice("order", order, {"row-major", "morton", "hilbert"},
+                 "of the tiles; morton: a Z curve; hilbert: a curve without jumps");
         v.text("title", title, "for the report");
         v.section("memory", memory, "the memory behind the accelerator");
         v.require(seed % banks != 5, {"seed", "must not leave 5 by banks", "12", {"banks"}});

@@ -144,6 +144,18 @@ TEST(ConfigChoice, GoesByNameAndSuggestsTheNearest) {
                                            "row-major, morton, hilbert.");
 }
 
+// Whoever calls a choice by what it means is told its name, unless several mean it.
+TEST(ConfigChoice, IsFoundByAWordOfItsDescription) {
+    const std::string sentence = "a.yaml:1: key 'order' is 'jumps', but must be one of row-major, "
+                                 "morton, hilbert (did you mean 'hilbert'?).";
+    EXPECT_EQ(error_of("order: jumps"), sentence);
+    for (const char* vague : {"curve", "Z", "tiles", "jump"}) {
+        const std::string start = std::string("a.yaml:1: key 'order' is '") + vague;
+        EXPECT_EQ(error_of(std::string("order: ") + vague),
+                  start + "', but must be one of row-major, morton, hilbert.");
+    }
+}
+
 TEST(ConfigText, MayBeEmptyButNotMissing) {
     EXPECT_EQ(loaded("title: ''").title, "");
     EXPECT_EQ(loaded("title: 64 PEs, 2 tiles").title, "64 PEs, 2 tiles");

@@ -10,7 +10,6 @@
 #include "base/grouped_number.hpp"
 #include "base/parallel.hpp"
 #include "degs/error.hpp"
-#include "splat/frame/tile_cover.hpp"
 
 namespace degs {
 namespace {
@@ -48,11 +47,7 @@ public:
 
     /// Valid until the next call.
     const std::vector<TileRun>& cover(const ProjectedSplat& splat) {
-        if (mode_ == TileMode::Exact) {
-            cover_ellipse(splat, grid_, runs_);
-        } else {
-            cover_square(splat, grid_, runs_);
-        }
+        cover_tiles(splat, grid_, mode_, runs_);
         return runs_;
     }
     /// The tiles of the last call of cover() once more.
@@ -115,9 +110,9 @@ ProjectedBlock project_block(const GaussianCloud& cloud, const Camera& camera,
     ProjectedBlock block;
     for (std::size_t i = begin; i < end; ++i) {
         ProjectedSplat splat;
-        // In Reference mode the square decides what is on the screen, not the ellipse.
-        Cull cull = mode == TileMode::Exact ? projector.project(i, binner.covered(), splat)
-                                            : projector.project_anywhere(i, splat);
+        // In the 3-sigma modes their box decides what is on the screen, not the ellipse.
+        Cull cull = lists_whole_ellipse(mode) ? projector.project(i, binner.covered(), splat)
+                                              : projector.project_anywhere(i, splat);
         if (cull == Cull::None) {
             cull = binner.cover(splat).empty() ? Cull::OffScreen : projector.shade(i, splat);
         }

@@ -8,14 +8,10 @@
 #include <glm/glm.hpp>
 
 #include "splat/frame/projection.hpp"
+#include "splat/frame/tile_cover.hpp"
 #include "splat/frame/tile_grid.hpp"
 
 namespace degs {
-
-/// Which tiles list a splat. `Exact`: tiles whose pixels the ellipse q <= Q_th may touch.
-/// `Reference`: the 3-sigma square of the original rasteriser, pixel test unchanged. A splat that
-/// no tile lists is not visible (counted as off_screen); transparent Gaussians are dropped in both.
-enum class TileMode { Exact, Reference };
 
 struct CullCounts {
     std::uint64_t near = 0, transparent = 0, degenerate = 0, off_screen = 0;
@@ -54,7 +50,8 @@ struct FrameWorkload {
 };
 
 /// Projects, shades, sorts and bins a scene, in the format of `options`, on all processors;
-/// culling, lists and order follow from its splats. The depth key is that of the options, rounded
+/// culling, lists and order follow from its splats; one that no tile lists is not visible, and
+/// counts as off_screen. The depth key is that of the options, rounded
 /// to float, as the original sorts float bits; ties keep index order. Throws InputError for an
 /// image without pixels, focal lengths or a tile size below 1, or a negative near plane.
 FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,

@@ -120,10 +120,7 @@ int clamped_tile(double tile, int first, int tiles) {
     return index_within(tile, first, first + tiles) - first;
 }
 
-} // namespace
-
 void cover_ellipse(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs) {
-    runs.clear();
     const PixelBox box = pixel_box(splat, grid.covered());
     if (box.empty()) {
         return;
@@ -137,16 +134,41 @@ void cover_ellipse(const ProjectedSplat& splat, const TileGrid& grid, std::vecto
                                runs);
         cover_tile_row(solver, grid, top, bottom, collector);
     }
-    drop_hidden(grid.hidden(), runs);
 }
 
-void cover_square(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs) {
-    runs.clear();
+void cover_pixel_box(const ProjectedSplat& splat, const TileGrid& grid,
+                     std::vector<TileRun>& runs) {
+    const PixelBox box = pixel_box(splat, grid.covered());
+    if (box.empty()) {
+        return;
+    }
+    const int size = grid.tile_size(), from = grid.first_column();
+    for (int row = box.y0 / size; row <= box.y1 / size; ++row) {
+        runs.push_back({row - grid.first_row(), box.x0 / size - from, box.x1 / size - from});
+    }
+}
+
+/// Half widths of a box around the mean, px.
+struct HalfWidths {
+    double x = 0, y = 0;
+};
+
+HalfWidths square_of(const ProjectedSplat& splat) {
     const double mid = 0.5 * (splat.cov_a + splat.cov_c);
     const double half_difference = 0.5 * (splat.cov_a - splat.cov_c);
     // mid^2 - det without cancellation; the floor of 0.1 px^4 makes every radius at least 3 px.
     const double root = half_difference * half_difference + splat.cov_b * splat.cov_b;
     const double radius = std::ceil(3.0 * std::sqrt(mid + std::sqrt(std::max(0.1, root))));
+    return {radius, radius};
+}
+
+HalfWidths box_of(const ProjectedSplat& splat) {
+    return {std::ceil(3.0 * std::sqrt(splat.cov_a)), std::ceil(3.0 * std::sqrt(splat.cov_c))};
+}
+
+/// The tiles that the reference code finds for a box.
+void cover_box(const ProjectedSplat& splat, const HalfWidths& half, const TileGrid& grid,
+               std::vector<TileRun>& runs) {
     const double size = grid.tile_size();
     const auto column = [&](double x) {
         return clamped_tile(x / size, grid.first_column(), grid.tiles_x());
@@ -154,12 +176,44 @@ void cover_square(const ProjectedSplat& splat, const TileGrid& grid, std::vector
     const auto row_of = [&](double y) {
         return clamped_tile(y / size, grid.first_row(), grid.tiles_y());
     };
-    const int x0 = column(splat.mu_x - radius);
-    const int y0 = row_of(splat.mu_y - radius);
-    const int x1 = column(splat.mu_x + radius + size - 1);
-    const int y1 = row_of(splat.mu_y + radius + size - 1);
+    const int x0 = column(splat.mu_x - half.x);
+    const int y0 = row_of(splat.mu_y - half.y);
+    const int x1 = column(splat.mu_x + half.x + size - 1);
+    const int y1 = row_of(splat.mu_y + half.y + size - 1);
     for (int row = y0; row < y1 && x0 < x1; ++row) {
         runs.push_back({row, x0, x1 - 1});
+    }
+}
+
+} // namespace
+
+const std::vector<const char*>& tile_mode_names() {
+    static const std::vector<const char*> names{"exact", "square", "box", "tight"};
+    return names;
+}
+
+const char* const kTileModesDoc =
+    "tiles that list a splat; exact: those that the ellipse touches [assumed]; square: those of "
+    "the 3-sigma square of the "
+    "reference code; box: those of its axis-aligned 3-sigma box (paper, Sec. II-A); tight: those "
+    "of the box of the ellipse";
+
+void cover_tiles(const ProjectedSplat& splat, const TileGrid& grid, TileMode mode,
+                 std::vector<TileRun>& runs) {
+    runs.clear();
+    switch (mode) {
+    case TileMode::Exact:
+        cover_ellipse(splat, grid, runs);
+        break;
+    case TileMode::Square:
+        cover_box(splat, square_of(splat), grid, runs);
+        break;
+    case TileMode::Box:
+        cover_box(splat, box_of(splat), grid, runs);
+        break;
+    case TileMode::Tight:
+        cover_pixel_box(splat, grid, runs);
+        break;
     }
     drop_hidden(grid.hidden(), runs);
 }

@@ -13,15 +13,35 @@ struct TileRun {
     int row = 0, first = 0, last = 0;
 };
 
-/// The tiles that hold at least one pixel of the ellipse q <= Q_th (closed, widened by
-/// `pixel_slack`), each exactly once, as runs; `runs` is overwritten. Neither cover has hidden
-/// tiles. Every integer row is solved exactly, so a diagonal needle lists its own tiles and not its
-/// bounding box.
-void cover_ellipse(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs);
+/// Which tiles list a splat. The test of a pixel is the same with all of them.
+enum class TileMode {
+    /// Tiles with a pixel of the ellipse q <= Q_th (closed, widened by `pixel_slack`). Every pixel
+    /// row is solved, so a diagonal needle lists its own tiles and not its bounding box.
+    Exact,
+    /// Tiles of the reference code: a square of half width ceil(3 sqrt(lambda_max)), in double. Its
+    /// upper ends are one pixel short and its lower ends up to one pixel generous, as there.
+    Square,
+    /// Tiles of the axis-aligned 3-sigma box (paper, Sec. II-A) of half widths ceil(3 sqrt(cov_a))
+    /// and ceil(3 sqrt(cov_c)), with the ends of the square.
+    Box,
+    /// Tiles with a pixel of the bounding box of the ellipse, `pixel_box`.
+    Tight
+};
 
-/// The tiles of the original rasteriser: a square of half width ceil(3
-/// sqrt(lambda_max)), in double. Its upper ends are one pixel short and its lower ends
-/// up to one pixel generous, as there.
-void cover_square(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs);
+/// Names of the modes, in this order.
+const std::vector<const char*>& tile_mode_names();
+/// What each means, "name: ...; name: ...", for whoever chooses.
+extern const char* const kTileModesDoc;
+
+/// Whether every tile with a pixel of the ellipse is listed, so that images do not depend on lists.
+/// The 3-sigma modes lose pixels of splats with an opacity above about 0.35.
+constexpr bool lists_whole_ellipse(TileMode mode) {
+    return mode == TileMode::Exact || mode == TileMode::Tight;
+}
+
+/// The tiles that list the splat, each once and none of them hidden, as runs; `runs` is
+/// overwritten.
+void cover_tiles(const ProjectedSplat& splat, const TileGrid& grid, TileMode mode,
+                 std::vector<TileRun>& runs);
 
 } // namespace degs

@@ -30,7 +30,7 @@ inline FrameWorkload make_frame(std::vector<ProjectedSplat> splats, int width, i
         splats[i].depth = 1 + i;
         frame.visible_of.push_back(i);
         frame.visible_means.emplace_back(splats[i].mu_x, splats[i].mu_y, splats[i].depth);
-        cover_ellipse(splats[i], grid, runs);
+        cover_tiles(splats[i], grid, TileMode::Exact, runs);
         std::uint32_t touched = 0;
         for (const TileRun& run : runs) {
             for (int x = run.first; x <= run.last; ++x, ++touched) {

@@ -195,7 +195,7 @@ TEST(FrameCache, FindsFramesByEverythingTheyDependOn) {
     EXPECT_EQ(render_reference(*same, counts_of_same).rgb, render_reference(frame, counts).rgb);
     EXPECT_FALSE(found("scenf", 16, TileMode::Exact, options));
     EXPECT_FALSE(found("scene", 8, TileMode::Exact, options));
-    EXPECT_FALSE(found("scene", 16, TileMode::Reference, options));
+    EXPECT_FALSE(found("scene", 16, TileMode::Square, options));
     const std::vector<std::function<void(ProjectionOptions&)>> changes{
         [](auto& other) { other.near_plane *= 2; },
         [](auto& other) { other.dilation = 0.31; },

@@ -92,7 +92,7 @@ TEST(PackedFrame, HoldsEveryNumberSetAndRule) {
                                      {"pipeline.formats.gaussian_mean=fp16"},
                                      {"pipeline.rules.preset=khr"},
                                      {"pipeline.rules.near=1"},
-                                     {"pipeline.tiles=reference"},
+                                     {"pipeline.tiles=box"},
                                      {"tile_size=16"}};
     Words pack = with({"workload", "pack", "--out", file}, view), sets;
     for (std::size_t k = 0; k < changes.size(); ++k) {

@@ -25,7 +25,7 @@ Words keys_of(std::mt19937& draw) {
         {"pipeline.rules.sigma_kappa", {"0", "1", "20"}},
         {"pipeline.rules.sigma_beta", {"2", "3", "50"}},
         {"pipeline.numbers", {"fp32", "fp64", "fp16", "paper", "tuned"}},
-        {"pipeline.tiles", {"exact", "reference"}},
+        {"pipeline.tiles", {"exact", "square", "box", "tight"}},
     };
     Words keys;
     for (const auto& [key, values] : all) {

@@ -111,9 +111,11 @@ TEST_P(Workload, EmptyAndFullyCulledScenes) {
               "no finite projection.");
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, Workload, testing::Values(TileMode::Exact, TileMode::Reference),
+INSTANTIATE_TEST_SUITE_P(Modes, Workload,
+                         testing::Values(TileMode::Exact, TileMode::Square, TileMode::Box,
+                                         TileMode::Tight),
                          [](const auto& mode) {
-                             return mode.param == TileMode::Exact ? "Exact" : "Reference";
+                             return tile_mode_names()[static_cast<std::size_t>(mode.param)];
                          });
 
 // H14: ties keep index order, also when only the rounding to float makes them ties.
@@ -159,7 +161,7 @@ TEST(WorkloadModes, VisibilityFollowsTheTilesOfTheMode) {
     add_gaussian(cloud, {-28 * 0.05, 0, 5}, glm::vec3(0.2F), test::kNoTurn, 1.0F, test::kGrey);
     const auto exact = make_frame_workload(cloud, camera, 16, TileMode::Exact);
     EXPECT_EQ(ids(exact), std::vector<std::uint32_t>{1});
-    const auto square = make_frame_workload(cloud, camera, 16, TileMode::Reference);
+    const auto square = make_frame_workload(cloud, camera, 16, TileMode::Square);
     EXPECT_EQ(ids(square), std::vector<std::uint32_t>{0});
 }
 

@@ -98,7 +98,8 @@ TEST_P(HiddenTilesOf, AnImageAreBackground) {
     EXPECT_EQ(counts.fragments, fragments);
 }
 INSTANTIATE_TEST_SUITE_P(Modes, HiddenTilesOf,
-                         testing::Values(TileMode::Exact, TileMode::Reference));
+                         testing::Values(TileMode::Exact, TileMode::Square, TileMode::Box,
+                                         TileMode::Tight));
 
 } // namespace
 } // namespace degs

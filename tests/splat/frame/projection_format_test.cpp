@@ -240,7 +240,8 @@ TEST(ProjectionFormat, OverflowsAreCountedAndLeaveNoMark) {
     add_gaussian(cloud, {0, 0, 5}, glm::vec3(5), straight, 0.5F, glm::vec3(0.5F)); // determinant
     add_gaussian(cloud, {0, 0, 5}, small, straight, 0.5F, {1e5F, 0, 0});           // colour
     add_gaussian(cloud, {0, 0, -1}, small, straight, 0.5F, glm::vec3(0.5F));
-    for (const TileMode mode : {TileMode::Exact, TileMode::Reference}) {
+    for (const TileMode mode :
+         {TileMode::Exact, TileMode::Square, TileMode::Box, TileMode::Tight}) {
         const FrameWorkload work =
             make_frame_workload(cloud, make_camera(64, 48, 100), 16, mode, in("fp16"));
         EXPECT_EQ(work.culled.degenerate, 3U);

@@ -24,10 +24,18 @@ TileSet tiles_of(const std::vector<TileRun>& runs, const TileGrid& grid) {
     return tiles;
 }
 
-TileSet exact_tiles(const ProjectedSplat& splat, const TileGrid& grid) {
+TileSet listed_tiles(const ProjectedSplat& splat, const TileGrid& grid, TileMode mode) {
     std::vector<TileRun> runs;
-    cover_ellipse(splat, grid, runs);
+    cover_tiles(splat, grid, mode, runs);
     return tiles_of(runs, grid);
+}
+
+TileSet exact_tiles(const ProjectedSplat& splat, const TileGrid& grid) {
+    return listed_tiles(splat, grid, TileMode::Exact);
+}
+
+TileSet square_tiles(const ProjectedSplat& splat, const TileGrid& grid) {
+    return listed_tiles(splat, grid, TileMode::Square);
 }
 
 /// Every pixel of the image against q <= Q_th, in long double and with the literal conic.
@@ -63,9 +71,43 @@ ProjectedSplat make_ellipse(double mu_x, double mu_y, double length, double widt
     return splat;
 }
 
+/// Tiles with a pixel centre within the bounding box of the ellipse q <= Q_th.
+TileSet brute_tight_tiles(const ProjectedSplat& s, const TileGrid& grid) {
+    const long double half_x = std::sqrt(static_cast<long double>(s.q_threshold) * s.cov_a);
+    const long double half_y = std::sqrt(static_cast<long double>(s.q_threshold) * s.cov_c);
+    TileSet tiles;
+    for (int y = 0; y <= grid.image().y1; ++y) {
+        for (int x = 0; x <= grid.image().x1; ++x) {
+            if (std::abs(x - static_cast<long double>(s.mu_x)) <= half_x &&
+                std::abs(y - static_cast<long double>(s.mu_y)) <= half_y) {
+                tiles.emplace(y / grid.tile_size(), x / grid.tile_size());
+            }
+        }
+    }
+    return tiles;
+}
+
+/// The tiles of the reference code for a box: int() of its ends divided by the side of a tile,
+/// solved for the tile. It must begin before the next tile, and reach 1 px into this one.
+TileSet tiles_around(const ProjectedSplat& s, double half_x, double half_y, const TileGrid& grid) {
+    const auto meets = [&](double middle, double half, int tile) {
+        const double begin = tile * grid.tile_size(), end = begin + grid.tile_size();
+        return middle - half < end && middle + half >= begin + 1;
+    };
+    TileSet tiles;
+    for (int row = 0; row < grid.tiles_y(); ++row) {
+        for (int column = 0; column < grid.tiles_x(); ++column) {
+            if (meets(s.mu_x, half_x, column) && meets(s.mu_y, half_y, row)) {
+                tiles.emplace(row, column);
+            }
+        }
+    }
+    return tiles;
+}
+
 class RandomEllipses : public testing::TestWithParam<int> {};
 
-TEST_P(RandomEllipses, ExactListsAreThoseOfBruteForce) {
+TEST_P(RandomEllipses, ListsAreThoseOfBruteForce) {
     std::mt19937 random(static_cast<unsigned>(GetParam()));
     std::uniform_real_distribution<double> uniform(0, 1);
     const TileGrid grid{75, 53, GetParam()};
@@ -79,6 +121,17 @@ TEST_P(RandomEllipses, ExactListsAreThoseOfBruteForce) {
         const TileSet expected = brute_tiles(splat, grid);
         listed += expected.size();
         ASSERT_EQ(exact_tiles(splat, grid), expected) << "ellipse " << i;
+        ASSERT_EQ(listed_tiles(splat, grid, TileMode::Tight), brute_tight_tiles(splat, grid))
+            << "ellipse " << i;
+        ASSERT_EQ(listed_tiles(splat, grid, TileMode::Box),
+                  tiles_around(splat, std::ceil(3 * std::sqrt(splat.cov_a)),
+                               std::ceil(3 * std::sqrt(splat.cov_c)), grid))
+            << "ellipse " << i;
+        const double mid = (length * length + width * width) / 2;
+        const double radius =
+            std::ceil(3 * std::sqrt(std::max(length * length, mid + std::sqrt(0.1))));
+        ASSERT_EQ(square_tiles(splat, grid), tiles_around(splat, radius, radius, grid))
+            << "ellipse " << i;
     }
     EXPECT_GT(listed, 800U);
 }
@@ -96,7 +149,7 @@ TEST(TileCover, ThinEllipseLeavesGaps) {
                                         test::kPi * uniform(random), 4);
         ASSERT_EQ(exact_tiles(splat, grid), brute_tiles(splat, grid)) << "ellipse " << i;
         std::vector<TileRun> runs;
-        cover_ellipse(splat, grid, runs);
+        cover_tiles(splat, grid, TileMode::Exact, runs);
         for (std::size_t k = 1; k < runs.size(); ++k) {
             gap_seen = gap_seen || runs[k].row == runs[k - 1].row;
         }
@@ -118,10 +171,10 @@ TEST(TileCover, GiantSplatListsEveryTile) {
     for (const double size : {1e4, 1e9, 1e60}) {
         const auto splat = make_ellipse(-1000, 9000, size, size, 0.3, 11);
         std::vector<TileRun> runs;
-        cover_ellipse(splat, grid, runs);
+        cover_tiles(splat, grid, TileMode::Exact, runs);
         EXPECT_EQ(runs.size(), 270U);
         EXPECT_EQ(tiles_of(runs, grid).size(), 270U * 480U);
-        cover_square(splat, grid, runs);
+        cover_tiles(splat, grid, TileMode::Square, runs);
         EXPECT_EQ(tiles_of(runs, grid).size(), 270U * 480U);
     }
 }
@@ -148,12 +201,6 @@ TEST(TileCover, SinglePixelOfAThresholdSplat) {
     const TileGrid grid{33, 33, 16};
     EXPECT_EQ(exact_tiles(make_ellipse(32, 7, 5, 5, 0, 0), grid), (TileSet{{0, 2}}));
     EXPECT_TRUE(exact_tiles(make_ellipse(31.5, 7, 5, 5, 0, 0), grid).empty());
-}
-
-TileSet square_tiles(const ProjectedSplat& splat, const TileGrid& grid) {
-    std::vector<TileRun> runs;
-    cover_square(splat, grid, runs);
-    return tiles_of(runs, grid);
 }
 
 /// A dilated point: the variance floor makes its radius 3 px.

@@ -22,9 +22,7 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
         "stop_rule", stop_rule, {"refuse", "after"},
         "refuse: the splat that would push T under 1e-4 is not blended (reference code); "
         "after: it is, then the pixel ends (paper, Sec. II-A)");
-    visitor.choice("tiles", tiles, {"exact", "reference"},
-                   "tiles that list a splat; exact: those that the ellipse touches [assumed]; "
-                   "reference: those of the 3-sigma square (paper, Sec. II-A; reference code)");
+    visitor.choice("tiles", tiles, tile_mode_names(), kTileModesDoc);
     visitor.section("rules", rules,
                     "what renderers of the same Gaussians disagree about; the defaults are those "
                     "of the reference code");
