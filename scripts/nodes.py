@@ -10,7 +10,8 @@ import pathlib
 import sys
 
 ROWS = 28  # nm: the node of Table I, whose rows the factors scale
-FO4_PER_NS = 40  # cost.logic.fo4_per_ns of configs/cost/28nm.yaml
+FO4_PER_NS, FO4_NODE = 40, 45  # [assumed] 25 ps at 45 nm; an INVX1 of NanGate's open library has 25.8
+DELAY = {45: 0.81}  # of the same table
 # nm: area relative to 45 nm; delay, energy and power relative to 65 nm. The table is that of
 # S. Sarangi and B. Baas, "DeepScaleTool: A Tool for the Accurate Estimation of Technology
 # Scaling in the Deep-Submicron Era", ISCAS 2021, arXiv:2102.10195.
@@ -40,6 +41,11 @@ def values(node):
     return PUBLISHED[node]
 
 
+def fo4_per_ns(node):
+    """cost.logic.fo4_per_ns: as many as at 45 nm, by the delay of the node."""
+    return FO4_PER_NS * DELAY[FO4_NODE] / values(node)[1]
+
+
 def factors(node):
     """The same relative to the node of the rows."""
     return tuple(a / b for a, b in zip(values(node), PUBLISHED[ROWS]))
@@ -54,7 +60,8 @@ def source(node):
 
 
 def text(node):
-    area, delay, energy, power = factors(node)
+    area, _, energy, power = factors(node)
+    delay = values(node)[1] / DELAY[FO4_NODE]
     return f"""# SPDX-License-Identifier: Apache-2.0
 # The rows of Table I scaled to {node} nm:
 # {source(node)}.
@@ -64,14 +71,14 @@ node: {node} nm
 area_factor: {area:.4g}
 energy_factor: {energy:.4g}
 leakage_factor: {power:.4g}  # [assumed] leakage keeps its share of the power
-logic: {{ fo4_per_ns: {FO4_PER_NS / delay:.4g} }}  # {FO4_PER_NS} / {delay:.4g} of the delay
+logic: {{ fo4_per_ns: {fo4_per_ns(node):.4g} }}  # {FO4_PER_NS} at {FO4_NODE} nm, {delay:.4g} of its delay
 """
 
 
 def markdown():
-    lines = ["| file | area | delay | energy | leakage | source |", "|---|---:|---:|---:|---:|---|"]
-    for node in NODES:
-        numbers = " | ".join(f"{factor:.3f}" for factor in factors(node))
+    lines = ["| file | area | delay | energy | leakage | FO4 per ns | source |", "|---|---:|---:|---:|---:|---:|---|"]
+    for node in (ROWS, *NODES):
+        numbers = " | ".join(f"{factor:.3f}" for factor in factors(node)) + f" | {fo4_per_ns(node):.1f}"
         lines.append(f"| [`{node}nm.yaml`](../configs/cost/{node}nm.yaml) | {numbers} | {source(node)} |")
     return "\n".join(lines)
 
@@ -82,6 +89,8 @@ def main():
         return
     folder = pathlib.Path(__file__).resolve().parent.parent / "configs/cost"
     wrong = []
+    if f"fo4_per_ns: {fo4_per_ns(ROWS):.4g} " not in (folder / f"{ROWS}nm.yaml").read_text(encoding="utf-8"):
+        wrong.append(f"{ROWS}nm.yaml")
     for node in NODES:
         file = folder / f"{node}nm.yaml"
         if "--write" in sys.argv[1:]:

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""synthesis.py [--quick | --table] [--jobs N] [--out FOLDER]: area and delay of blocks of the Packing Scheduler and of
-the array, by synthesis with yosys and static timing with OpenSTA. Prints the tables of docs/synthesis.md, the fitted
-laws among them, and writes docs/synthesis.csv. Finished points stay in FOLDER (default build/synthesis), so that an
-interrupted run goes on; a point is made again when its sources have changed. --quick makes three small points and
-writes nothing, --table prints the tables from docs/synthesis.csv.
+"""synthesis.py [--quick | --table | --block NAME] [--jobs N] [--out FOLDER]: area and delay of blocks of the Packing
+Scheduler and of the array, by synthesis with yosys and static timing with OpenSTA. Prints the tables of
+docs/synthesis.md, the fitted laws among them, and writes docs/synthesis.csv. Finished points stay in FOLDER (default
+build/synthesis), so that an interrupted run goes on; a point is made again when its sources have changed. --quick makes
+three small points and writes nothing, --table prints the tables from docs/synthesis.csv, --block makes only the points
+of that block (as in the first column of docs/synthesis.csv) and takes the others from there.
 
 The cells are those of Debian's qflow-tech-osu018. DEGS_RTL_TABLES is the folder that degs_rtl_tables has written
 (default build/release/tests/rtl/tables)."""
@@ -34,6 +35,7 @@ FLOP_AREA = 96.0   # of DFFPOSX1, in units of the library
 PARAMETERS = ["n", "k", "serial", "depth", "cut", "issue", "width", "writes", "tag", "tuned", "in", "out", "pairs"]
 ARITHMETIC = ["arithmetic.sv", "tables.sv"]
 SOURCES = {"select_in_turn": ["synthesis/select_in_turn.sv"], "select_oldest": ["synthesis/select_oldest.sv"],
+           "select_foreseen": ["synthesis/select_foreseen.sv"],
            "segment_queue": ["synthesis/segment_queue.sv"], "domain_state": ["synthesis/domain_state.sv"],
            "packing_registers": ["packing_unit.sv", "synthesis/packing_registers.sv"],
            "pixel_loop": ARITHMETIC + ["synthesis/pixel_loop.sv"], "pe": ARITHMETIC + ["pe.sv"],
@@ -52,6 +54,7 @@ POINTS = (
     points_of("pixel_loop", "TUNED", (0,), (1,)) +
     points_of("select_in_turn", "N K SERIAL WIDTH", (16, 1, 0, 8), (16, 2, 0, 8), (48, 4, 0, 16), (128, 2, 0, 8),
               (128, 8, 0, 32), (16, 1, 1, 8), (16, 2, 1, 8), (48, 4, 1, 16), (64, 2, 1, 8)) +
+    points_of("select_foreseen", "N K WIDTH", (16, 2, 8)) +
     points_of("select_oldest", "N K", (16, 2), (16, 4), (32, 2), (32, 4), (48, 2)) +
     points_of("ready_vector", "N", (16,), (48,)) + points_of("choose_in_turn", "N K", (16, 2), (48, 4)) +
     points_of("choose_by_dates", "N K", (16, 2), (48, 4)) + points_of("group_dates", "N K WIDTH", (16, 2, 8), (48, 4, 16)) +
@@ -66,8 +69,8 @@ QUICK = (points_of("select_in_turn", "N K SERIAL WIDTH", (8, 1, 0, 8)) + points_
 
 
 def name_of(point):
-    """A file name of a point."""
-    return point[0] + "".join(f"-{key.lower()}{value}" for key, value in point[1].items())
+    """A file name of a point, in whichever order it has its parameters."""
+    return point[0] + "".join(f"-{key}{point[1][key.upper()]}" for key in PARAMETERS if key.upper() in point[1])
 
 
 class TooLong(Exception):
@@ -220,7 +223,7 @@ DELAYS = [
     ("selection of the oldest", lambda top, p: top == "select_oldest", {"": lambda p: 1, "K": lambda p: p["K"]}),
     ("segment queue", lambda top, p: top == "segment_queue",
      {"C": lambda p: p["CUT"], "log₂ DEPTH": lambda p: math.log2(p["DEPTH"])}),
-    ("Packing Unit", lambda top, p: top == "packing_registers", {"": lambda p: 1, "K": lambda p: p["ISSUE"]}),
+    ("Packing Unit", lambda top, p: top == "packing_registers", {"log₂ 16 K": lambda p: math.log2(16 * p["ISSUE"])}),
 ]
 
 
@@ -345,6 +348,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--block", choices=SOURCES, action="append")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build/synthesis")
     options = parser.parse_args()
@@ -355,7 +359,7 @@ def main():
     if missing:
         print("skipped: " + ", ".join(missing) + " is not installed")
         sys.exit(77)
-    points = QUICK if options.quick else POINTS
+    points = QUICK if options.quick else [point for point in POINTS if point[0] in (options.block or SOURCES)]
     with tempfile.TemporaryDirectory() as folder:
         fo4_ns = fan_out_of_4(folder)
         out = pathlib.Path(folder) if options.quick else options.out
@@ -364,6 +368,8 @@ def main():
             made = list(pool.map(lambda point: make(point, fo4_ns, out), points))
     results = {name_of(point): result for point, result in zip(points, made)}
     print(f"FO4 = {1000 * fo4_ns:.1f} ps; all points take {sum(result['seconds'] for result in made):.0f} s, one after the other.\n")
+    if options.block:
+        points, results = POINTS, kept_points()[1] | results
     laws, delays, pe = print_tables(points, results)
     if not options.quick:
         keep(points, results, laws, pe)

@@ -68,11 +68,8 @@ std::string cost_text(const cost::BillOfMaterials& bill, const cost::ClockEstima
     for (Cells& row : rows_of(bill)) {
         table.add(std::move(row));
     }
-    const std::string warning = clock.warning();
-    return table.text() +
-           (warning.empty()
-                ? ""
-                : folded("warning: the clock reaches " + warning, output_columns()) + "\n");
+    const std::string words = "clock: " + clock.words(bill.technology().node);
+    return table.text() + folded(words, output_columns()) + "\n";
 }
 
 std::string cost_markdown(const cost::BillOfMaterials& bill) {

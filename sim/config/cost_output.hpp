@@ -9,7 +9,7 @@
 
 namespace degs::sim {
 
-/// A table for terminals: a line for each block, then the sums, and what is wrong with the clock.
+/// A table for terminals: a line for each block, then the sums, and the clock.
 std::string cost_text(const cost::BillOfMaterials& bill, const cost::ClockEstimate& clock);
 /// The lines and sums of cost_text() as a Markdown table.
 std::string cost_markdown(const cost::BillOfMaterials& bill);

@@ -145,7 +145,7 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
 void describe_outcome(const RunResult& result, StatsVisitor& v) {
     v.section("energy", result.accelerator.energy, "Energy of the accelerator and its memory.");
     v.section("area", result.config.accelerator().bill(), "What the design costs.");
-    v.section("clock", result.config.accelerator().clock(), "What clock its logic allows.");
+    v.section("clock", result.config.accelerator().clock(), "What clock our RTL of it allows.");
     describe_image(result, v);
 }
 

@@ -261,9 +261,6 @@ std::string summary(const RunResult& result, const std::string& image_path) {
                 {"memory", memory_line(run)},
                 {"energy", energy_line(run)},
                 {"image", image_line(result, image_path)}};
-    if (const std::string clock = result.config.accelerator().clock().warning(); !clock.empty()) {
-        block.insert(block.begin() + 2, {"clock", clock}); // behind the design
-    }
     if (const std::string buffers = buffers_line(run); !buffers.empty()) {
         block.insert(std::find_if(block.begin(), block.end(),
                                   [](const auto& line) { return line.first == "memory"; }),

@@ -27,24 +27,30 @@ std::optional<double> ClockEstimate::feasible_ghz() const {
     return limits_.empty() ? std::nullopt : std::optional<double>(ghz_of(limits_.front()));
 }
 
-std::string ClockEstimate::warning() const {
-    std::string text;
+std::string ClockEstimate::words(const std::string& node) const {
+    if (limits_.empty()) {
+        return config_words::number(clock_ghz_) +
+               " GHz as configured; there is no RTL of this design";
+    }
+    std::string slow;
     for (const ClockLimit& limit : limits_) {
         if (ghz_of(limit) >= clock_ghz_) {
             break;
         }
-        text += (text.empty() ? ": " : ", ") + limit.block + " " + hundredths(ghz_of(limit)) +
+        slow += (slow.empty() ? ": " : ", ") + limit.block + " " + hundredths(ghz_of(limit)) +
                 (limit.cure.empty() ? "" : " (" + limit.cure + ")");
     }
-    return text.empty() ? text
-                        : hundredths(*feasible_ghz()) + " of " + config_words::number(clock_ghz_) +
-                              " GHz by synthesis" + text;
+    return "our RTL reaches " + hundredths(*feasible_ghz()) + " of " +
+           config_words::number(clock_ghz_) + " GHz in " + node +
+           " by synthesis, a bound of this RTL and not of the design" + slow;
 }
 
 void ClockEstimate::describe(StatsVisitor& visitor) const {
-    visitor.real("feasible_ghz", feasible_ghz(), "GHz",
-                 "Clock that the logic reaches by synthesis, without wires; null if no part of the "
-                 "design has been synthesised.");
+    visitor.real(
+        "feasible_ghz", feasible_ghz(), "GHz",
+        "Clock that our RTL reaches by synthesis in the design's node, without wires: a "
+        "bound of this RTL, not of the design; null if there is no RTL of the design, as of "
+        "the baselines.");
     visitor.text("limited_by", limits_.empty() ? "" : limits_.front().block,
                  "The logic that allows no more.");
     const bool slow = !limits_.empty() && ghz_of(limits_.front()) < clock_ghz_;

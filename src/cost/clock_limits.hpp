@@ -17,8 +17,9 @@ struct ClockLimit {
     std::string cure;  ///< an assignment with which it reaches the clock; empty: no key helps
 };
 
-/// The clock that a design can reach by docs/synthesis.md, without wires. Only what a design cannot
-/// divide freely limits it.
+/// The clock that our RTL of a design reaches by docs/synthesis.md, without wires. Only what a
+/// design cannot divide freely limits it. It is a bound of this RTL in a node, not of the design: a
+/// better circuit may reach more, and designs without RTL have none.
 class ClockEstimate {
 public:
     /// `fo4_per_ns` of LogicLaws; `clock_ghz` is that of the design.
@@ -30,9 +31,9 @@ public:
     double ghz_of(const ClockLimit& limit) const { return limit.cycles * fo4_per_ns_ / limit.fo4; }
     /// Nothing if no part of the design has been synthesised.
     std::optional<double> feasible_ghz() const;
-    /// One line: the clock that can be reached, and for each block that is too slow the key that
-    /// would help. Empty if the design reaches its clock, or if nothing is known.
-    std::string warning() const;
+    /// One line: the clock that is reached in `node`, and for each block that is slower than the
+    /// design's clock the key that would help; or that nothing is known.
+    std::string words(const std::string& node) const;
     /// The section `clock` of a report.
     void describe(StatsVisitor& visitor) const;
 

@@ -25,8 +25,8 @@ void LogicLaws::describe(ConfigVisitor& visitor) {
                  "areas below are relative (synthesis)");
     visitor.real(
         "fo4_per_ns", fo4_per_ns, 1, 1e4,
-        "FO4 of logic in a nanosecond, without wires and setup; 40 is about 1 GHz at 45 nm "
-        "[assumed]");
+        "FO4 of logic in a nanosecond, without wires and setup: 40 at 45 nm [assumed], divided by "
+        "the node's delay (DeepScaleTool)");
     visitor.integer("task_bits", task_bits, 1, 256,
                     "bits of a task that the shift network moves beside its pixel [assumed]");
     visitor.integer("address_bits", address_bits, 1, 64,
@@ -50,7 +50,7 @@ void LogicLaws::describe(ConfigVisitor& visitor) {
     visitor.real("group_fo4", group_fo4, 0, kMost, "FO4 / log2 N K of the dates after a group");
     visitor.section("oldest_fo4", oldest_fo4, "FO4: a + b K");
     visitor.section("queue_fo4", queue_fo4, "FO4: a C + b log2 depth");
-    visitor.section("packing_fo4", packing_fo4, "FO4: a + b K");
+    visitor.real("packing_fo4", packing_fo4, 0, kMost, "FO4 / log2 K L of L pixels in a segment");
     visitor.real("pixel_loop_fo4", pixel_loop_fo4, 0, kMost, "FO4 of a pixel's loop in `paper`");
     visitor.real("tuned_pixel_loop_fo4", tuned_pixel_loop_fo4, 0, kMost, "the same in `tuned`");
 }
@@ -117,8 +117,8 @@ double LogicLaws::area_packing(int segments, int length, int width, int packets)
     return packing.of((lanes + width) * bits, reach * bits) + packing_reach * reach;
 }
 
-double LogicLaws::fo4_packing(int segments) const {
-    return packing_fo4.of(1, segments);
+double LogicLaws::fo4_packing(int segments, int length) const {
+    return packing_fo4 * std::log2(std::max(2, segments * length));
 }
 
 double LogicLaws::area_crossbar(int senders, int receivers, int bits) const {

@@ -23,18 +23,18 @@ struct LogicLaws {
     bool widths = true;                 ///< false: a wider unit costs no more
     UnitRow pe{0.01375, 0.00359375, 1}; ///< what `pe_area` takes in the rows' node
     double pe_area = 851993;            ///< library units
-    double fo4_per_ns = 40;
+    double fo4_per_ns = 48.36;
     int task_bits = 16, address_bits = 48;
     Law in_turn{280.8, 420.9}, serial{703.2, 465.1}, oldest{78.6, 48.3};
     Law queue{135.7, 58.9}, domains{4790.1, 1690.2};
-    Law packing{117.0, 4.27};
-    double packing_reach = 145.9;
+    Law packing{93.7, 3.88};
+    double packing_reach = 149.3;
     Law crossbar{42.5, 64.1}, tile_walk{29850.1, 19789.5};
     Law pipelined{772.1, 96};
     Law in_turn_fo4{14.7, 3.49}, serial_fo4{6.80, 8.26}, oldest_fo4{8.2, 7.87};
-    Law queue_fo4{7.15, 5.76}, packing_fo4{19.9, 52.3};
-    double by_dates_fo4 = 5.74, chosen_fo4 = 4.68, group_fo4 = 5.75;
-    double pixel_loop_fo4 = 253, tuned_pixel_loop_fo4 = 131;
+    Law queue_fo4{7.15, 5.76};
+    double packing_fo4 = 11.4, by_dates_fo4 = 5.74, chosen_fo4 = 4.68, group_fo4 = 5.75;
+    double pixel_loop_fo4 = 102.5, tuned_pixel_loop_fo4 = 66.1;
 
     void describe(ConfigVisitor& visitor);
 
@@ -59,7 +59,7 @@ struct LogicLaws {
     /// A Packing Unit that takes `segments` of `length` pixels and writes `packets` of `width`
     /// tasks in a cycle.
     double area_packing(int segments, int length, int width, int packets) const;
-    double fo4_packing(int segments) const;
+    double fo4_packing(int segments, int length) const;
     /// A crossbar of words of `bits`.
     double area_crossbar(int senders, int receivers, int bits) const;
     /// The walk over the tiles of a splat, `pairs` in a cycle.

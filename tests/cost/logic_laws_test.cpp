@@ -132,7 +132,7 @@ TEST(LogicLaws, WidthsAreThoseOfTheSynthesis) {
         constexpr int kPixels = 16;
         return {
             laws.area_packing(number(p, "issue"), kPixels, number(p, "width"), number(p, "writes")),
-            laws.fo4_packing(number(p, "issue"))};
+            laws.fo4_packing(number(p, "issue"), kPixels)};
     });
     const LogicLaws laws;
     expect_points("row_crossbar", true, [&](const Point& p) -> AreaAndDelay {
@@ -141,6 +141,16 @@ TEST(LogicLaws, WidthsAreThoseOfTheSynthesis) {
     expect_points("tile_walk", true, [&](const Point& p) -> AreaAndDelay {
         return {laws.area_tile_walk(number(p, "pairs")), 0};
     });
+}
+
+// Twice the pixels are one more level of sums, whichever of the two factors has doubled.
+TEST(LogicLaws, ThePackingDelayFollowsTheLogarithmOfThePixels) {
+    const LogicLaws laws;
+    const double level = laws.fo4_packing(2, 16) - laws.fo4_packing(1, 16);
+    EXPECT_GT(level, 0);
+    EXPECT_NEAR(laws.fo4_packing(4, 16) - laws.fo4_packing(2, 16), level, 1e-9);
+    EXPECT_NEAR(laws.fo4_packing(8, 16) - laws.fo4_packing(1, 16), 3 * level, 1e-9);
+    EXPECT_NEAR(laws.fo4_packing(2, 32), laws.fo4_packing(4, 16), 1e-9);
 }
 
 // Tasks of 11 bits and 5 of their place; 16 pixels complete up to two packets of 12 lanes, beside
@@ -168,9 +178,13 @@ TEST(ClockEstimate, TheSlowestLogicDecides) {
     const ClockEstimate clock({{"fast", 20, 1, ""}, {"slow", 200, 4, "key=5"}, {"even", 40, 1, ""}},
                               40, 1);
     EXPECT_DOUBLE_EQ(*clock.feasible_ghz(), 0.8);
-    EXPECT_EQ(clock.warning(), "0.8 of 1 GHz by synthesis: slow 0.8 (key=5)");
-    EXPECT_EQ(ClockEstimate({{"even", 40, 1, ""}}, 40, 1).warning(), "");
-    EXPECT_EQ(ClockEstimate({}, 40, 1).warning(), "");
+    const std::string bound = " by synthesis, a bound of this RTL and not of the design";
+    EXPECT_EQ(clock.words("28 nm"),
+              "our RTL reaches 0.8 of 1 GHz in 28 nm" + bound + ": slow 0.8 (key=5)");
+    EXPECT_EQ(ClockEstimate({{"even", 40, 1, ""}}, 40, 1).words("7 nm"),
+              "our RTL reaches 1 of 1 GHz in 7 nm" + bound);
+    EXPECT_EQ(ClockEstimate({}, 40, 1.5).words("28 nm"),
+              "1.5 GHz as configured; there is no RTL of this design");
     EXPECT_FALSE(ClockEstimate({}, 40, 1).feasible_ghz().has_value());
 }
 

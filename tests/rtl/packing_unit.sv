@@ -18,27 +18,51 @@ module packing_unit #(
   output logic [LANES*TASK-1:0] p_lanes,
   output logic [7:0] unwritten // complete packets that have not been written before this cycle
 );
+  localparam PIXELS = ISSUE * SEG, COUNT = $clog2(PIXELS + WIDTH), HALF = 1 << ($clog2(PIXELS) - 1);
   logic [TASK-1:0] open [0:WIDTH-1];
   logic [7:0] tasks, waiting;
   logic [TASK-1:0] lane [0:LANES-1];
-  logic [7:0] base, rank, complete;
-  integer j, k, l, p;
+  logic [PIXELS-1:0] task_of;
+  logic [COUNT-1:0] near [0:PIXELS-1], far [0:PIXELS-1];
+  logic [7:0] base, complete;
+  logic [4:0] pixel;
+  logic [SEG-1:0] hits;
+  integer d, i, j, k, l, p;
 
+  // a + b == sum, without a chain of carries: if the sum is right, a bit carries where a and b have
+  // it, or one of them has it and the sum has not.
+  function automatic logic adds_up(input logic [COUNT-1:0] a, input logic [COUNT-1:0] b, input logic [COUNT-1:0] sum);
+    adds_up = (a ^ b ^ sum) == (((a & b) | ((a | b) & ~sum)) << 1);
+  endfunction
+
+  // A task's place is the number of tasks before it, those of the open packet first: a prefix sum in
+  // a tree, whose levels join neighbours to groups of 2, 4, 8 and so on. `near` is the sum within
+  // the pixel's half, `far` that of the half before it: their sum is the place.
   always_comb begin
+    for (i = 0; i < PIXELS; i++) task_of[i] = i_valid[i/SEG] & i_mask[i];
+    near[0] = tasks[COUNT-1:0];
+    for (i = 1; i < PIXELS; i++) near[i] = {{COUNT-1{1'b0}}, task_of[i-1]};
+    for (d = 1; d < HALF; d = 2 * d)
+      for (i = 0; i < PIXELS; i++)
+        if (i / d % 2 == 1) near[i] = near[i] + near[i/d*d - 1];
+    for (i = 0; i < PIXELS; i++) far[i] = i < HALF ? 0 : near[HALF-1];
+    base = near[PIXELS-1] + far[PIXELS-1] + task_of[PIXELS-1];
+  end
+
+  always_comb
     for (l = 0; l < LANES; l++) begin
       lane[l] = 0;
       if (l < WIDTH && l < tasks) lane[l] = open[l % WIDTH];
+      for (k = 0; k < ISSUE; k++) begin
+        for (j = 0; j < SEG; j++) // the tasks before it bring a pixel no further
+          hits[j] = l < WIDTH + k*SEG+j && task_of[k*SEG+j] && adds_up(near[k*SEG+j], far[k*SEG+j], l[COUNT-1:0]);
+        pixel = 0;
+        for (j = 0; j < SEG; j++) pixel = pixel | (j[4:0] & {5{hits[j]}});
+        lane[l] = lane[l] | {i_tag[k*TAG +: TAG] & {TAG{|hits}}, pixel};
+      end
     end
-    base = tasks;
-    for (k = 0; k < ISSUE; k++) begin
-      rank = base; // a task's place is the number of tasks before it: a prefix sum
-      for (j = 0; j < SEG; j++)
-        if (i_valid[k] && i_mask[k*SEG+j]) begin
-          for (l = 0; l < LANES; l++) if (rank == l) lane[l] = lane[l] | {i_tag[k*TAG +: TAG], j[4:0]};
-          rank = rank + 1;
-        end
-      base = rank;
-    end
+
+  always_comb begin
     complete = base / WIDTH;
     for (p = 0; p <= COMPLETE; p++) begin
       p_valid[p] = p < complete || (flush && p == complete && base % WIDTH != 0);

@@ -35,7 +35,7 @@ std::vector<cost::ClockLimit> DegsConfig::clock_limits() const {
     const BankShape bank = bank_shape();
     const double loop =
         pipeline.numbers == Arithmetic::Tuned ? laws.tuned_pixel_loop_fo4 : laws.pixel_loop_fo4;
-    const double packed = laws.fo4_packing(bank.issued);
+    const double packed = laws.fo4_packing(bank.issued, bank.length);
     constexpr int kReadCycles = 1; // of packing.latency_cycles
     std::vector<cost::ClockLimit> limits;
     limits.push_back({"loop of a pixel", loop, scheduler.reuse_cycles,

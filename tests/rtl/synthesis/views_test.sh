@@ -15,5 +15,6 @@ compare() { # the test and the views that it has
         >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
     "$folder/$test/V$test"
 }
-compare views_test select_in_turn.sv select_oldest.sv segment_queue.sv
+compare views_test select_in_turn.sv select_oldest.sv segment_queue.sv select_foreseen.sv
 compare pipelined_test pipelined_select.sv
+compare packing_test ../packing_unit.sv

@@ -12,10 +12,11 @@ module views_test;
   logic [N*5-1:0] count = 0, count_1 = 0;
   logic [5:0] date = 0, date_1 = 0;
   logic [2:0] tasks = 0, tasks_1 = 0;
-  wire [K-1:0] v [0:1];
-  wire [K*4-1:0] p [0:1];
+  wire [K-1:0] v [0:2]; // 2: serial dates that are foreseen
+  wire [K*4-1:0] p [0:2];
   select_in_turn #(.N(N), .K(K), .SERIAL(0)) turn_0 (clk, waits, cool, count, date, tasks, v[0], p[0]);
   select_in_turn #(.N(N), .K(K), .SERIAL(1)) turn_1 (clk, waits, cool, count, date, tasks, v[1], p[1]);
+  select_foreseen #(.N(N), .K(K)) foreseen (clk, waits, cool, count, date, tasks, v[2], p[2]);
   integer cursor [0:1], at, total, now, most, s;
   logic found;
   logic [N-1:0] gone;
@@ -95,7 +96,7 @@ module views_test;
   initial begin
     for (i = 0; i < N; i = i + 1) age[i] = i - N;
     cursor[0] = 0; cursor[1] = 0;
-    turn_0.from = 0; turn_1.from = 0; oldest.older = 0; queue.used = 0; queue.waits = 0;
+    turn_0.from = 0; turn_1.from = 0; foreseen.from = 0; oldest.older = 0; queue.used = 0; queue.waits = 0;
     for (i = 0; i < N; i = i + 1) for (j = i + 1; j < N; j = j + 1) oldest.older[i*N+j] = 1;
     for (cycle = 0; cycle < CYCLES; cycle = cycle + 1) begin
       waits = $urandom & $urandom; date = $urandom_range(20); tasks = $urandom;
@@ -126,6 +127,11 @@ module views_test;
       #1 clk = 1; #1;
       check(v[0] === right_v[0] || cycle < 2, "in turn, one date: valid");
       check(v[1] === right_v[1] || cycle < 2, "in turn, serial dates: valid");
+      check(v[2] === right_v[1] || cycle < 2, "in turn, dates foreseen: valid");
+      for (k = 0; k < K; k = k + 1) if (cycle > 1 && right_v[1][k]) begin
+        check(p[2][k*4 +: 4] === right_p[1][k*4 +: 4], "in turn, dates foreseen: pick");
+        picked = picked + 1;
+      end
       for (k = 0; k < K; k = k + 1) for (s = 0; s < 2; s = s + 1)
         if (cycle > 1 && right_v[s][k]) begin
           check(p[s][k*4 +: 4] === right_p[s][k*4 +: 4], "in turn: pick");
