@@ -25,6 +25,7 @@ struct Trial {
     std::string file;
     std::vector<std::string> keys;
     int frames = 0, views = 1;
+    int width = 70;          ///< px
     bool kept_tiles = false; ///< drawings are shared, see BuildOptions::kept
     BuildOptions options;
     Fidelity fidelity = Fidelity::Exact;
@@ -79,9 +80,9 @@ std::vector<FrameWorkload> frames_of(const Trial& trial, const AcceleratorConfig
         const double aside = 1.5 * static_cast<double>(random() % 4);
         for (int v = 0; v < trial.views; ++v) {
             Camera camera;
-            camera.width = 70;
-            camera.height = 50;
-            camera.fx = camera.fy = 60;
+            camera.width = trial.width;
+            camera.height = trial.width * 5 / 7;
+            camera.fx = camera.fy = 0.85 * trial.width;
             camera.position.x += aside + 0.3 * v + 0.05 * f;
             frames.push_back(make_frame_workload(shrinks && f > 2 ? fewer : all, camera,
                                                  design.tile_size_px(), design.tile_mode(),
@@ -144,6 +145,7 @@ TEST_P(SmallRunFramesKept, AreThoseInWork) {
     const AcceleratorConfig& design = loaded.accelerator();
     Trial one;
     one.frames = 1;
+    one.width = 140; // more tiles than sorters
     const FrameWorkload frame = frames_of(one, design, 0).front();
     const std::vector<const FrameWorkload*> frames(20, &frame);
     const EngineRun whole("whole", design, frames, Fidelity::Exact, {}, 1, Joining::InTurn);
