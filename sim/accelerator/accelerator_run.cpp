@@ -2,8 +2,10 @@
 #include "sim/accelerator/accelerator_run.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "base/ratio.hpp"
 #include "modules/kit/accelerator/accelerator_energy.hpp"
@@ -15,36 +17,81 @@ namespace {
 constexpr Cycle kCyclesPerSlice = 10000;
 
 /// sc_start(t) executes the same events in the same order as sc_start(), so that looking
-/// in between changes nothing.
-void run_kernel(const RenderEngine& engine, const ClockDomain& clock, std::size_t tiles,
+/// in between changes nothing. Frames that have not been made yet count as those that have.
+void run_kernel(const RenderEngine& engine, const ClockDomain& clock, const RenderJob& job,
                 Progress& progress) {
     do {
         sc_core::sc_start(clock.at(kCyclesPerSlice));
-        progress.done(ratio_of(engine.finished_tiles(), tiles));
+        const std::size_t frames = job.frames.size();
+        progress.done(ratio_of(engine.finished_tiles(), job.tiles.size()) *
+                      ratio_of(frames, frames + job.source.frames));
     } while (sc_core::sc_pending_activity());
 }
 
-/// Tiles as they lie in the images, for those who no longer have the job.
-void collect_recording(AcceleratorResult& result, RenderJob& job, Timeline* timeline) {
+/// The frames of a run, and what is known of them when they have been let go.
+class RunFrames {
+public:
+    RunFrames(RenderJob& job, FrameSource frames, SimulationClock& clock)
+        : job_(job), frames_(std::move(frames)), clock_(clock) {
+        job_.source = {frames_.frames, [this] { return take(); }};
+    }
+
+    /// When the kernel has stopped. Throws what the source has thrown.
+    void end() {
+        if (failure_ != nullptr) {
+            std::rethrow_exception(failure_);
+        }
+        while (job_.add_next()) { // of a model that is deadlocked
+        }
+        note_tiles();
+    }
+    std::uint64_t pixels() const { return pixels_; }
+    /// Tiles as they lie in the images, if they are recorded.
+    std::vector<TileRecord>& tiles() { return tiles_; }
+
+private:
+    // The kernel would make an error of its own of an exception.
+    FramePointer take() {
+        note_tiles();
+        FramePointer frame;
+        try {
+            frame = clock_.leave_out([this] { return frames_.take(); });
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+        if (frame != nullptr) {
+            pixels_ += frame->grid().shown_pixels();
+        }
+        return frame;
+    }
+    /// Before those retire that have not been noted: see RenderJob::add_next().
+    void note_tiles() {
+        while (job_.recorder != nullptr && tiles_.size() < job_.tiles.size()) {
+            const JobTile& tile = job_.tiles[tiles_.size()];
+            tiles_.push_back({tile.frame, tile.x, tile.y, tile.drawn_columns().size(),
+                              tile.drawn_rows().size(), tile.count, TileActivity()});
+        }
+    }
+
+    RenderJob& job_;
+    FrameSource frames_;
+    SimulationClock& clock_;
+    std::uint64_t pixels_ = 0;
+    std::vector<TileRecord> tiles_;
+    std::exception_ptr failure_;
+};
+
+void collect_recording(AcceleratorResult& result, RenderJob& job, std::vector<TileRecord>& tiles,
+                       Timeline* timeline) {
     job.recorder->close();
     const std::vector<TileActivity>& activity = job.recorder->tiles();
-    for (std::size_t t = 0; t < job.tiles.size(); ++t) {
-        const JobTile& tile = job.tiles[t];
-        result.tile_records.push_back({tile.frame, tile.x, tile.y, tile.drawn_columns().size(),
-                                       tile.drawn_rows().size(), tile.count,
-                                       t < activity.size() ? activity[t] : TileActivity()});
+    for (std::size_t t = 0; t < std::min(tiles.size(), activity.size()); ++t) {
+        tiles[t].activity = activity[t];
     }
+    result.tile_records = std::move(tiles);
     if (timeline != nullptr) {
         result.timeline = timeline->record(std::max(result.cycles, result.memory_window));
     }
-}
-
-std::uint64_t pixels_of(const std::vector<const FrameWorkload*>& frames) {
-    std::uint64_t pixels = 0;
-    for (const FrameWorkload* frame : frames) {
-        pixels += frame->grid().shown_pixels();
-    }
-    return pixels;
 }
 
 void require_equal(const std::string& law, std::uint64_t left, std::uint64_t right) {
@@ -56,8 +103,7 @@ void require_equal(const std::string& law, std::uint64_t left, std::uint64_t rig
 
 } // namespace
 
-AcceleratorResult run_accelerator(const AcceleratorConfig& config,
-                                  const std::vector<const FrameWorkload*>& frames,
+AcceleratorResult run_accelerator(const AcceleratorConfig& config, FrameSource frames,
                                   Fidelity fidelity, const BuildOptions& options,
                                   const Recording& recording, Progress& progress, int views) {
     const Stopwatch elaborate;
@@ -68,10 +114,10 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     std::uint64_t activations = 0;
     const Timebase time{ClockDomain(config.clock_ghz), fidelity, timeline ? &*timeline : nullptr,
                         &activations};
-    RenderJob job = make_render_job({frames.begin(), frames.begin() + views}, config, views);
-    job.keeps_images = recording.images;
-    std::for_each(frames.begin() + views, frames.end(),
-                  [&job](const FrameWorkload* frame) { job.add(*frame); });
+    RenderJob job = make_render_job(config, views);
+    job.drawn_images = recording.images ? frames.frames : views;
+    SimulationClock run;
+    RunFrames taken(job, std::move(frames), run);
     if (timeline || recording.tiles) {
         job.recorder = std::make_unique<SlotRecorder>(time.timeline);
     }
@@ -83,9 +129,10 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     result.elaborate_s = elaborate.seconds();
 
     result.sim_start = std::chrono::steady_clock::now();
-    const SimulationClock run;
-    run_kernel(*engine, time.clock, job.tiles.size(), progress);
+    run = SimulationClock();
+    run_kernel(*engine, time.clock, job, progress);
     run.stop(result);
+    taken.end();
     result.activations = activations;
 
     result.name = config.name;
@@ -99,9 +146,9 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
         group_views(result, views);
     }
     result.sim_s += result.waited_s;
-    result.energy = energy_of(config, result, pixels_of(frames));
+    result.energy = energy_of(config, result, taken.pixels());
     if (job.recorder != nullptr) {
-        collect_recording(result, job, timeline ? &*timeline : nullptr);
+        collect_recording(result, job, taken.tiles(), timeline ? &*timeline : nullptr);
     }
     result.images.assign(std::make_move_iterator(job.images.begin()),
                          std::make_move_iterator(job.images.end()));

@@ -21,12 +21,12 @@ struct Recording {
 };
 
 /// Builds the accelerator, renders the frames one after the other and checks the invariants. May be
-/// called once per process, because SystemC elaborates once. All workloads must have the tile size
-/// and tile mode that the accelerator asks for. Each `views` of them are one frame of that many
-/// views; their number divides that of the workloads. Images that are not recorded are empty.
-/// Throws std::logic_error if the model is broken.
-AcceleratorResult run_accelerator(const AcceleratorConfig& config,
-                                  const std::vector<const FrameWorkload*>& frames,
+/// called once per process, because SystemC elaborates once. Frames are taken from `frames` as they
+/// are needed, and let go when they have ended. All workloads must have the tile size and tile mode
+/// that the accelerator asks for. Each `views` of them are one frame of that many views; their
+/// number divides that of the workloads. Images that are not recorded are empty. Throws
+/// std::logic_error if the model is broken, and what the source throws.
+AcceleratorResult run_accelerator(const AcceleratorConfig& config, FrameSource frames,
                                   Fidelity fidelity, const BuildOptions& options,
                                   const Recording& recording, Progress& progress, int views = 1);
 
@@ -35,11 +35,21 @@ class SimulationClock {
 public:
     /// Sets sim_s, without the waits for the drawing, and drawing_s.
     void stop(AcceleratorResult& result) const {
-        result.sim_s = own_.seconds();
-        result.drawing_s = std::max(0.0, all_.seconds() - result.sim_s);
+        result.sim_s = own_.seconds() - other_own_s_;
+        result.drawing_s = std::max(0.0, all_.seconds() - other_s_ - result.sim_s);
+    }
+    /// Leaves out what all threads do during `work`, which is no simulation.
+    template <class Work>
+    auto leave_out(const Work& work) {
+        const CpuStopwatch all, own = CpuStopwatch::of_this_thread();
+        auto made = work();
+        other_s_ += all.seconds();
+        other_own_s_ += own.seconds();
+        return made;
     }
 
 private:
+    double other_s_ = 0, other_own_s_ = 0;
     CpuStopwatch all_;
     CpuStopwatch own_ = CpuStopwatch::of_this_thread();
 };

@@ -166,7 +166,7 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
             frame.workload =
                 make_frame_workload(loaded.scene.cloud, camera, request.tile_size, TileMode::Exact,
                                     request.rules.options(loaded.scene.traits.antialiased));
-            print_warnings(near_plane_warnings({&frame.workload}));
+            print_warnings(near_plane_warnings(frame.workload));
             frame.reference = make_reference(frame.workload).image;
             measure_frame(request, frame, out, rows);
         }

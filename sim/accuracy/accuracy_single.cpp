@@ -81,7 +81,7 @@ void measure_view_splats(const SingleGaussianRequest& request,
     const ProjectionOptions options = request.rules.options(false);
     const FrameWorkload workload =
         make_frame_workload(loaded.scene.cloud, camera, kAlphaWindow, TileMode::Exact, options);
-    print_warnings(near_plane_warnings({&workload}));
+    print_warnings(near_plane_warnings(workload));
     const std::vector<ProjectedSplat>& splats = workload.splats;
     if (splats.empty()) {
         throw InputError("Camera " + std::to_string(view.camera) + " of the scene '" + view.scene +

@@ -83,7 +83,7 @@ AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
     for (std::string& sentence : lens_warnings(frame.camera, frame.projection)) {
         run.warnings.push_back(std::move(sentence));
     }
-    for (std::string& sentence : near_plane_warnings({&frame})) {
+    for (std::string& sentence : near_plane_warnings(frame)) {
         run.warnings.push_back(std::move(sentence));
     }
     return run;
@@ -92,7 +92,7 @@ AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
 AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
                          const std::vector<ChangedDesign>& changed) {
     analytic_model_of(config); // a mistake is found before the frame is made
-    const std::vector<FrameWorkload> frames = view.frames(config.accelerator());
+    const std::vector<FrameWorkload> frames = view.first_frame(config.accelerator());
     AnalyticRun run = run_analytic(config, view.facts(), frames.front());
     run.what_if = what_if(config, changed, frames.front(), view);
     run.load_s = view.load_s();

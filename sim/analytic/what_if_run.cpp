@@ -44,7 +44,7 @@ std::vector<WhatIf> what_if(const RunConfig& config, const std::vector<ChangedDe
         const AcceleratorConfig& accelerator = design.config.accelerator();
         const FrameKind kind = frame_kind(accelerator, traits);
         if (kind != own && others.count(kind) == 0) {
-            others.emplace(kind, std::move(view.frames(accelerator).front()));
+            others.emplace(kind, std::move(view.first_frame(accelerator).front()));
         }
         list.push_back({design.change, before,
                         estimated_cycles(design.config, kind == own ? frame : others.at(kind))});

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/cache/cached_view.hpp"
 
+#include <exception>
+#include <functional>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "degs/error.hpp"
@@ -12,6 +16,30 @@ namespace degs::sim {
 namespace {
 
 constexpr double kWorthKeeping = 0.005; // s
+
+/// Does what may need a deep stack, which a process of a simulation does not have.
+void on_own_thread(const std::function<void()>& work) {
+    std::exception_ptr failure;
+    const auto caught = [&] {
+        try {
+            work();
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    };
+    std::optional<std::thread> thread;
+    try {
+        thread.emplace(caught);
+    } catch (const std::system_error&) {
+        caught(); // the system gives none
+    }
+    if (thread) {
+        thread->join();
+    }
+    if (failure != nullptr) {
+        std::rethrow_exception(failure);
+    }
+}
 
 /// Options of the projection that the reference of a frame is drawn from.
 ProjectionOptions reference_options(const FrameWorkload& frame) {
@@ -129,47 +157,117 @@ const GaussianCloud& CachedView::cloud() {
     return scene_.cloud;
 }
 
-std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
-    std::vector<FrameWorkload> frames;
+std::vector<FrameWorkload> CachedView::kept_frame(const AcceleratorConfig& config,
+                                                  std::size_t frame) {
+    std::vector<FrameWorkload> views;
     const ProjectionOptions options = projection_of(config.data_path(), facts_.traits.antialiased);
-    if (workload_) {
-        frames.push_back(
-            packed_frame(config.name, options, config.tile_size_px(), config.tile_mode()));
-        return frames;
-    }
-    for (std::size_t k = 0; k < cameras_.size(); ++k) {
+    for (std::size_t k = frame * views_; k < (frame + 1) * views_; ++k) {
         const Stopwatch clock;
         std::optional<FrameWorkload> kept = cache_.frame(
             frame_key(k), cameras_[k], config.tile_size_px(), config.tile_mode(), options);
         if (!kept) {
-            break;
+            return {};
         }
-        frames.push_back(std::move(*kept));
+        views.push_back(std::move(*kept));
         workload_s_ += clock.seconds();
     }
-    if (frames.size() < cameras_.size()) {
-        double seconds = 0;
-        frames = dynamic_
-                     ? make_workloads(*dynamic_, facts_.traits, cameras_, config, seconds, views_)
-                     : make_workloads(cloud(), facts_.traits, cameras_, config, seconds);
-        frames_made_ = seconds > kWorthKeeping;
-        workload_s_ += seconds;
-    }
-    return frames;
+    return views;
 }
 
-std::vector<FrameWorkload>
-CachedView::with_shared_colours(const std::vector<FrameWorkload>& frames) {
-    std::vector<FrameWorkload> shared = frames;
-    const auto step = static_cast<std::size_t>(views_);
-    for (std::size_t first = 0; first < shared.size(); first += step) {
-        if (dynamic_) {
-            share_colours(dynamic_->frame(static_cast<int>(first / step)), shared, first, step);
-        } else {
-            share_colours(cloud(), shared, first, step);
+std::vector<FrameWorkload> CachedView::made_frame(const AcceleratorConfig& config,
+                                                  std::size_t frame) {
+    const auto first = cameras_.begin() + static_cast<std::ptrdiff_t>(frame) * views_;
+    const std::vector<Camera> cameras(first, first + views_);
+    double seconds = 0;
+    std::vector<FrameWorkload> views =
+        dynamic_ ? make_workloads(dynamic_->frame(static_cast<int>(frame)), facts_.traits, cameras,
+                                  config, seconds)
+                 : make_workloads(cloud(), facts_.traits, cameras, config, seconds);
+    made_s_ += seconds;
+    workload_s_ += seconds;
+    return views;
+}
+
+std::vector<FrameWorkload> CachedView::first_frame(const AcceleratorConfig& config) {
+    if (workload_) {
+        return {packed_frame(config.name,
+                             projection_of(config.data_path(), facts_.traits.antialiased),
+                             config.tile_size_px(), config.tile_mode())};
+    }
+    if (dynamic_) {
+        require_frames(*dynamic_, static_cast<int>(cameras_.size()) / views_);
+    }
+    made_s_ = 0;
+    std::vector<FrameWorkload> views = kept_frame(config, 0);
+    first_made_ = views.empty();
+    return first_made_ ? made_frame(config, 0) : views;
+}
+
+std::vector<FramePointer> CachedView::later_frame(const AcceleratorConfig& config,
+                                                  std::size_t frame) {
+    std::vector<FrameWorkload> views = kept_frame(config, frame);
+    const bool made = views.empty();
+    if (made) {
+        views = made_frame(config, frame);
+    }
+    std::vector<FramePointer> pointers;
+    for (FrameWorkload& view : views) {
+        pointers.push_back(std::make_shared<FrameWorkload>(std::move(view)));
+        if (made) {
+            unkept_.emplace_back(frame * views_ + pointers.size() - 1, pointers.back());
         }
     }
-    return shared;
+    if (made_s_ > kWorthKeeping) {
+        for (const auto& [k, view] : std::exchange(unkept_, {})) {
+            cache_.keep(frame_key(k), *view);
+        }
+    }
+    return pointers;
+}
+
+void CachedView::share_colours(std::vector<FramePointer>& views, std::size_t frame) {
+    std::vector<FrameWorkload> shared;
+    for (FramePointer& view : views) {
+        shared.push_back(*view);
+    }
+    if (dynamic_) {
+        sim::share_colours(dynamic_->frame(static_cast<int>(frame)), shared, 0, shared.size());
+    } else {
+        sim::share_colours(cloud(), shared, 0, shared.size());
+    }
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        views[v] = std::make_shared<FrameWorkload>(std::move(shared[v]));
+    }
+}
+
+FrameSource CachedView::frames(const AcceleratorConfig& config,
+                               const std::vector<FrameWorkload>& first) {
+    const auto take = [this, &config, &first](std::size_t frame) {
+        std::vector<FramePointer> views;
+        for (const FrameWorkload& view : first) {
+            views.push_back(borrowed(view));
+        }
+        if (frame != 0) {
+            views = later_frame(config, frame);
+        }
+        if (views_ > 1 && config.view_sharing() == ViewSharing::Colour) {
+            share_colours(views, frame);
+        }
+        if ((frame + 1) * views_ == cameras_.size()) {
+            forget_cloud();
+        }
+        return views;
+    };
+    const std::size_t per_frame = views_;
+    return {cameras_.size(), [take, per_frame, number = std::size_t{0},
+                              views = std::vector<FramePointer>()]() mutable {
+                const std::size_t view = number % per_frame;
+                if (view == 0) {
+                    on_own_thread([&] { views = take(number / per_frame); });
+                }
+                ++number;
+                return std::move(views[view]);
+            }};
 }
 
 void CachedView::require_reference(const FrameWorkload& frame) const {
@@ -219,13 +317,13 @@ void CachedView::forget_cloud() {
     scene_.cloud = GaussianCloud{};
 }
 
-void CachedView::keep(const std::vector<FrameWorkload>& frames,
+void CachedView::keep(const std::vector<FrameWorkload>& first,
                       const std::vector<Reference>& references) {
-    for (std::size_t k = 0; frames_made_ && k < frames.size(); ++k) {
-        cache_.keep(frame_key(k), frames[k]);
+    for (std::size_t k = 0; first_made_ && made_s_ > kWorthKeeping && k < first.size(); ++k) {
+        cache_.keep(frame_key(k), first[k]);
     }
     for (std::size_t k = 0; reference_made_ && k < references.size(); ++k) {
-        cache_.keep(frame_key(k), frames[k], references[k]);
+        cache_.keep(frame_key(k), first[k], references[k]);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/input_files.hpp"
@@ -32,10 +33,13 @@ public:
     /// The images of the first frame if they are foveated; the views of a frame are their levels,
     /// image by image.
     const std::optional<FoveatedViews>& foveated() const { return foveated_; }
-    /// The frames with colours that the views of each share: those from their middle.
-    std::vector<FrameWorkload> with_shared_colours(const std::vector<FrameWorkload>& frames);
-    /// The frames with the tiles of the accelerator, projected in its numbers.
-    std::vector<FrameWorkload> frames(const AcceleratorConfig& config);
+    /// The views of the first frame with the tiles of the accelerator, projected in its numbers.
+    std::vector<FrameWorkload> first_frame(const AcceleratorConfig& config);
+    /// All frames of the path, of which the first is there. The others are found, or made and kept
+    /// if that takes some time, when they are taken; the Gaussians are freed when the last one is.
+    /// Views have the colours from the middle of their frame if the accelerator shares them. This,
+    /// `config` and `first` outlive the source.
+    FrameSource frames(const AcceleratorConfig& config, const std::vector<FrameWorkload>& first);
     /// Throws InputError if the view is a workload file without the reference of such a frame.
     void require_reference(const FrameWorkload& frame) const;
     /// The reference of such a frame.
@@ -47,9 +51,9 @@ public:
     bool has_cloud() const { return !scene_.cloud.empty(); }
     /// Frees the Gaussians; they are loaded again if they are needed after all.
     void forget_cloud();
-    /// Keeps what was made and took some time: the frames, and references, as they were returned,
-    /// of the first ones.
-    void keep(const std::vector<FrameWorkload>& frames, const std::vector<Reference>& references);
+    /// Keeps what was made and took some time: the first frame, and its references, as they were
+    /// returned.
+    void keep(const std::vector<FrameWorkload>& first, const std::vector<Reference>& references);
 
     double load_s() const { return load_s_; }         ///< host
     double workload_s() const { return workload_s_; } ///< host, projections
@@ -63,8 +67,13 @@ private:
                                int tile_size, TileMode mode);
     /// Loads the scene if it is not there.
     const GaussianCloud& cloud();
-    /// The key in the cache of the scene as frame `k` shows it.
+    /// The key in the cache of the scene as view `k` of all shows it.
     std::string frame_key(std::size_t k) const;
+    /// The views of a frame, if all of them are in the cache; else empty.
+    std::vector<FrameWorkload> kept_frame(const AcceleratorConfig& config, std::size_t frame);
+    std::vector<FrameWorkload> made_frame(const AcceleratorConfig& config, std::size_t frame);
+    std::vector<FramePointer> later_frame(const AcceleratorConfig& config, std::size_t frame);
+    void share_colours(std::vector<FramePointer>& views, std::size_t frame);
 
     InputWatch watch_; ///< from the key of the scene on
     ViewRequest request_;
@@ -78,7 +87,11 @@ private:
     std::optional<FoveatedViews> foveated_;
     int views_ = 1;
     double load_s_ = 0, workload_s_ = 0;
-    bool frames_made_ = false, reference_made_ = false; ///< and worth keeping
+    double made_s_ = 0; ///< host, of frames that were not in the cache
+    std::vector<std::pair<std::size_t, FramePointer>>
+        unkept_; ///< made in less time than is worth it
+    bool first_made_ = false;
+    bool reference_made_ = false; ///< and worth keeping
 };
 
 } // namespace degs::sim

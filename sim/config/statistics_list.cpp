@@ -20,7 +20,7 @@ std::vector<Statistic> report_statistics(const RunConfig& config) {
         make_workloads(GaussianCloud{}, SceneTraits{}, {camera}, accelerator, seconds);
     RunRequest request;
     request.config = config;
-    const RunResult result = run_frames(request, {&frames.front()});
+    const RunResult result = run_frames(request, source_of({&frames.front()}));
     return document_statistics([&result](StatsVisitor& visitor) { describe(result, visitor); });
 }
 

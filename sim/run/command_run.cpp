@@ -167,33 +167,22 @@ void judge_views(RunResult& result, const References& references) {
     }
 }
 
-/// Makes or finds the frames, runs them and compares with the reference.
+/// Makes or finds the frames, runs them and compares the first one with its reference.
 RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& changed,
                    CachedView& view, const Stopwatch& since_start) {
     const Stopwatch wall;
-    const std::vector<FrameWorkload> workloads = view.frames(request.config.accelerator());
+    const std::vector<FrameWorkload> first = view.first_frame(request.config.accelerator());
     if (request.reference && !request.sampling) {
-        view.require_reference(workloads.front());
+        view.require_reference(first.front());
     }
-    std::vector<WhatIf> worth = what_if(request.config, changed, workloads.front(), view);
+    std::vector<WhatIf> worth = what_if(request.config, changed, first.front(), view);
     References references; // now if they need Gaussians that are there
-    const bool from_scene =
-        request.reference && view.has_cloud() &&
-        (!workloads.front().projection.numbers.is_reference() || view.foveated());
+    const bool from_scene = request.reference && view.has_cloud() &&
+                            (!first.front().projection.numbers.is_reference() || view.foveated());
     if (from_scene && !request.sampling) {
-        references = references_of(workloads, request, view);
+        references = references_of(first, request, view);
     }
-    std::vector<FrameWorkload> shaded; // with the colours that views share
-    if (request.views > 1 && request.config.accelerator().view_sharing() == ViewSharing::Colour) {
-        shaded = view.with_shared_colours(workloads);
-    }
-    view.forget_cloud(); // everything that follows needs the splats only
-    std::vector<const FrameWorkload*> frames;
-    frames.reserve(workloads.size());
-    for (const FrameWorkload& workload : shaded.empty() ? workloads : shaded) {
-        frames.push_back(&workload);
-    }
-    RunResult result = run_frames(request, frames);
+    RunResult result = run_frames(request, view.frames(request.config.accelerator(), first));
     put_scene(view.facts(), result);
     result.what_if = std::move(worth);
     if (view.foveated()) {
@@ -201,7 +190,7 @@ RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& 
     }
     if (request.reference && !result.sampling) { // most of a sample's image is missing
         if (references.views.empty()) {
-            references = references_of(workloads, request, view);
+            references = references_of(first, request, view);
         }
         judge_views(result, references);
     }
@@ -210,7 +199,7 @@ RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& 
     result.host.workload_s = view.workload_s();
     result.host.wall_s = view.load_s() + wall.seconds();
     result.host.peak_rss_bytes = peak_rss_bytes();
-    view.keep(workloads, references.views);
+    view.keep(first, references.views);
     return result;
 }
 

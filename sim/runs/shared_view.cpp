@@ -77,7 +77,7 @@ std::string SharedView::run(const RunRequest& request, bool path) const {
             wanted.push_back(&frame);
         }
     }
-    RunResult result = run_frames(request, wanted);
+    RunResult result = run_frames(request, source_of(wanted));
     put_scene(scene, result);
     if (request.reference && !path) {
         judge(result, references.front(),

@@ -36,9 +36,9 @@ void hatch(Image& image, const Camera& camera, const JobTile& tile) {
 /// The engine with its job, to which tiles are added while it exists.
 class OpenRun {
 public:
-    OpenRun(const AcceleratorConfig& config, const std::vector<const FrameWorkload*>& frames,
-            const Timebase& time, const BuildOptions& options)
-        : config_(config), time_(time), job_(make_render_job(frames, config)),
+    OpenRun(const AcceleratorConfig& config, const FrameWorkload& frame, const Timebase& time,
+            const BuildOptions& options)
+        : config_(config), time_(time), job_(make_render_job({&frame}, config)),
           all_(job_.tiles.begin(), job_.tiles.end()) {
         job_.tiles = TileList();
         job_.joined = std::make_unique<sc_core::sc_event>();
@@ -301,15 +301,9 @@ Verdict verdict_on(const Sampler& sampler, const FrameEstimate& estimate, Sampli
 
 } // namespace
 
-SampledResult run_sampled(const AcceleratorConfig& config,
-                          const std::vector<const FrameWorkload*>& frames, Fidelity fidelity,
-                          const BuildOptions& options, const SamplingRequest& request,
-                          Progress& progress) {
-    if (frames.size() != 1) {
-        throw InputError("A sample of tiles is of one frame, but the run has " +
-                         std::to_string(frames.size()) +
-                         "; --frames cannot be combined with --within or --fidelity sampled.");
-    }
+SampledResult run_sampled(const AcceleratorConfig& config, const FrameWorkload& frame,
+                          Fidelity fidelity, const BuildOptions& options,
+                          const SamplingRequest& request, Progress& progress) {
     const Stopwatch elaborate;
     SampledResult sampled;
     SamplingFacts& facts = sampled.facts;
@@ -318,20 +312,19 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     if (!facts.refusal.empty()) {
         return sampled;
     }
-    facts.tiles = listed_tiles(*frames.front());
+    facts.tiles = listed_tiles(frame);
     const int contexts = config.tile_contexts();
     if (!can_sample(request, contexts, facts.tiles)) {
         facts.refusal = too_few(facts.tiles, least_tiles(request, contexts));
         return sampled;
     }
     const std::unique_ptr<AnalyticModel> model = config.analytic();
-    const std::vector<TileWork> work =
-        expected_work(*frames.front(), model.get(), config.tile_order);
+    const std::vector<TileWork> work = expected_work(frame, model.get(), config.tile_order);
     SampleDesign design = design_sample(work, sizes_for(contexts, work.size()), request.seed);
     std::uint64_t activations = 0;
     const Timebase time{ClockDomain(config.clock_ghz), fidelity, nullptr, &activations};
-    OpenRun run(config, frames, time, options);
-    FrameEstimate estimate(config, *frames.front(), work_of_blocks(work, design));
+    OpenRun run(config, frame, time, options);
+    FrameEstimate estimate(config, frame, work_of_blocks(work, design));
     Sampler sampler(run, work, std::move(design), estimate, options.array_only,
                     model != nullptr && model->engines() == 1);
     const double elaborate_s = elaborate.seconds();

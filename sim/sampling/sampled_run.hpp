@@ -38,11 +38,9 @@ struct SampledResult {
     SamplingFacts facts;
 };
 
-/// May be called once per process. Throws InputError for several frames. A refusal leaves a result
-/// that must not be used.
-SampledResult run_sampled(const AcceleratorConfig& config,
-                          const std::vector<const FrameWorkload*>& frames, Fidelity fidelity,
-                          const BuildOptions& options, const SamplingRequest& request,
-                          Progress& progress);
+/// May be called once per process. A refusal leaves a result that must not be used.
+SampledResult run_sampled(const AcceleratorConfig& config, const FrameWorkload& frame,
+                          Fidelity fidelity, const BuildOptions& options,
+                          const SamplingRequest& request, Progress& progress);
 
 } // namespace degs::sim

@@ -6,7 +6,7 @@
 namespace degs::sim {
 namespace {
 
-/// All frames of a path are in memory at once; a typing error should not fill it.
+/// Comparisons and sweeps have all frames of a path in memory; a typing error should not fill it.
 constexpr int kMostFrames = 10000;
 
 } // namespace

@@ -39,19 +39,6 @@ double churn(const FrameWorkload& before, const FrameWorkload& now) {
     return most == 0 ? 0 : ratio_of(changed, most);
 }
 
-/// Nearest rank.
-double p99_list_length(const std::vector<const FrameWorkload*>& frames) {
-    std::vector<std::uint64_t> lengths;
-    for (const FrameWorkload* frame : frames) {
-        for (int tile = 0; tile < frame->tiles(); ++tile) {
-            lengths.push_back(list_length(*frame, tile));
-        }
-    }
-    const std::size_t rank = (lengths.size() * 99 + 99) / 100 - 1;
-    std::nth_element(lengths.begin(), lengths.begin() + rank, lengths.end());
-    return static_cast<double>(lengths[rank]);
-}
-
 /// px^2 of the ellipse in which the splat is drawn.
 double footprint(const ProjectedSplat& splat) {
     return kPi * splat.q_threshold * std::sqrt(splat.det);
@@ -71,39 +58,64 @@ std::string changes_words(const FrameChanges& changes) {
            " · footprint Gini " + three_digits(changes.footprint_gini);
 }
 
-FrameChanges frame_changes(const std::vector<const FrameWorkload*>& frames) {
+void FrameChangesSum::add(FramePointer frame) {
+    std::vector<double> areas;
+    areas.reserve(frame->splats.size());
+    for (const ProjectedSplat& splat : frame->splats) {
+        areas.push_back(footprint(splat));
+    }
+    footprint_gini_ += gini(std::move(areas)) / static_cast<double>(frames_);
+    for (int tile = 0; tile < frame->tiles(); ++tile) {
+        ++tiles_of_length_[list_length(*frame, tile)];
+    }
+    tiles_ += frame->tiles();
+    if (before_ != nullptr) {
+        compare(*before_, *frame);
+    }
+    before_ = std::move(frame);
+}
+
+void FrameChangesSum::compare(const FrameWorkload& before, const FrameWorkload& now) {
+    same_gaussians_ = same_gaussians_ && before.gaussians == now.gaussians;
+    same_tiles_ = same_tiles_ && before.tiles_x == now.tiles_x && before.tiles_y == now.tiles_y;
+    overlap_ += same_gaussians_ ? jaccard(before.visible_of, now.visible_of) : 0;
+    churned_ += same_tiles_ ? churn(before, now) : 0;
+}
+
+/// Nearest rank.
+double FrameChangesSum::p99_list_length() const {
+    const std::size_t rank = (tiles_ * 99 + 99) / 100 - 1;
+    std::size_t below = 0;
+    for (const auto& [length, tiles] : tiles_of_length_) {
+        below += tiles;
+        if (below > rank) {
+            return static_cast<double>(length);
+        }
+    }
+    return 0;
+}
+
+FrameChanges FrameChangesSum::changes() const {
     FrameChanges changes;
-    changes.frames = frames.size();
-    changes.p99_tile_candidates = p99_list_length(frames);
-    double overlap = 0;
-    double churned = 0;
-    bool same_gaussians = frames.size() > 1;
-    bool same_tiles = frames.size() > 1;
-    for (std::size_t k = 0; k < frames.size(); ++k) {
-        std::vector<double> areas;
-        areas.reserve(frames[k]->splats.size());
-        for (const ProjectedSplat& splat : frames[k]->splats) {
-            areas.push_back(footprint(splat));
-        }
-        changes.footprint_gini += gini(std::move(areas)) / static_cast<double>(frames.size());
-        if (k == 0) {
-            continue;
-        }
-        const FrameWorkload& before = *frames[k - 1];
-        same_gaussians = same_gaussians && before.gaussians == frames[k]->gaussians;
-        same_tiles = same_tiles && before.tiles_x == frames[k]->tiles_x &&
-                     before.tiles_y == frames[k]->tiles_y;
-        overlap += same_gaussians ? jaccard(before.visible_of, frames[k]->visible_of) : 0;
-        churned += same_tiles ? churn(before, *frames[k]) : 0;
+    changes.frames = frames_;
+    changes.p99_tile_candidates = p99_list_length();
+    changes.footprint_gini = footprint_gini_;
+    const auto pairs = static_cast<double>(frames_) - 1;
+    if (same_gaussians_ && frames_ > 1) {
+        changes.active_overlap = overlap_ / pairs;
     }
-    const auto pairs = static_cast<double>(frames.size()) - 1;
-    if (same_gaussians) {
-        changes.active_overlap = overlap / pairs;
-    }
-    if (same_tiles) {
-        changes.tile_churn = churned / pairs;
+    if (same_tiles_ && frames_ > 1) {
+        changes.tile_churn = churned_ / pairs;
     }
     return changes;
+}
+
+FrameChanges frame_changes(const std::vector<const FrameWorkload*>& frames) {
+    FrameChangesSum sum(frames.size());
+    for (const FrameWorkload* frame : frames) {
+        sum.add(borrowed(*frame));
+    }
+    return sum.changes();
 }
 
 } // namespace degs::sim

@@ -66,15 +66,19 @@ std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const Scen
     return workloads;
 }
 
+void require_frames(const DynamicScene& scene, int frames) {
+    if (frames > scene.frames()) {
+        throw InputError("The scene has " + std::to_string(scene.frames()) + " frames, and " +
+                         std::to_string(frames) + " were asked for (--frames).");
+    }
+}
+
 std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds,
                                           int views) {
     const int frames = static_cast<int>(cameras.size()) / views;
-    if (frames > scene.frames()) {
-        throw InputError("The scene has " + std::to_string(scene.frames()) + " frames, and " +
-                         std::to_string(frames) + " were asked for (--frames).");
-    }
+    require_frames(scene, frames);
     std::vector<FrameWorkload> workloads;
     for (int k = 0; k < frames; ++k) {
         const GaussianCloud cloud = scene.frame(k);
@@ -162,8 +166,7 @@ namespace {
 
 /// The sample that the request asks for, or the reason why there is none. A sample that turns out
 /// to be too small costs the process its simulation, so that a reserve goes on.
-std::optional<SampledResult> try_sample(const RunRequest& request,
-                                        const std::vector<const FrameWorkload*>& frames,
+std::optional<SampledResult> try_sample(const RunRequest& request, const FrameWorkload& frame,
                                         std::string& refusal, double& lost_s) {
     Reserve reserve;
     refusal = reserve.called_for();
@@ -174,7 +177,7 @@ std::optional<SampledResult> try_sample(const RunRequest& request,
     std::optional<SampledResult> sampled;
     {
         Progress progress("simulation of a sample");
-        sampled = run_sampled(request.config.accelerator(), frames, request.fidelity, request.build,
+        sampled = run_sampled(request.config.accelerator(), frame, request.fidelity, request.build,
                               *request.sampling, progress);
     }
     if (sampled->facts.refusal.empty()) {
@@ -194,67 +197,126 @@ const char* name_of(Fidelity fidelity) {
     return fidelity == Fidelity::Strict ? "strict" : "exact";
 }
 
+void append(std::vector<std::string>& to, const std::vector<std::string>& sentences) {
+    to.insert(to.end(), sentences.begin(), sentences.end());
+}
+
+/// The frames of a run on their way to the accelerator. Those of the first frame are there before
+/// the others are taken.
+class TakenFrames {
+public:
+    TakenFrames(FrameSource frames, std::size_t views)
+        : all_(frames.frames), views_(views), frames_(std::move(frames)), changes_(all_ / views) {
+        while (first_.size() < views) {
+            first_.push_back(take_next());
+        }
+    }
+
+    const std::vector<FramePointer>& first() const { return first_; }
+    bool several() const { return all_ > views_; }
+    /// All frames, from the first on.
+    FrameSource source() {
+        return {all_, [this] { return take(); }};
+    }
+    // When all have been taken.
+    FrameChanges changes() const { return changes_.changes(); }
+    const WorstNearPlane& near_plane() const { return near_plane_; }
+    /// Host time of all threads in which they were made.
+    double made_s() const { return made_s_; }
+
+private:
+    FramePointer take() {
+        FramePointer frame = given_ < views_ ? std::move(first_[given_]) : take_next();
+        ++given_;
+        return frame;
+    }
+    FramePointer take_next() {
+        const CpuStopwatch clock;
+        FramePointer frame = frames_.take();
+        made_s_ += clock.seconds();
+        if (frame != nullptr) {
+            near_plane_.add(*frame);
+            if (several() && taken_++ % views_ == 0) {
+                changes_.add(frame);
+            }
+        }
+        return frame;
+    }
+
+    std::size_t all_, views_, taken_ = 0, given_ = 0;
+    FrameSource frames_;
+    double made_s_ = 0;
+    std::vector<FramePointer> first_; ///< until they are given
+    FrameChangesSum changes_;         ///< of the first view of each frame
+    WorstNearPlane near_plane_;
+};
+
+/// What is known of the first frame, its views and the design before the run.
+void put_first_frame(const RunRequest& request, const std::vector<FramePointer>& views,
+                     RunResult& result) {
+    const FrameWorkload& first = *views.front();
+    result.config = request.config;
+    result.camera = first.camera;
+    result.workload = facts_of(first);
+    result.warnings = request.config.warnings;
+    for (std::size_t v = 0; views.size() > 1 && v < views.size(); ++v) {
+        result.views.push_back({views[v]->camera, facts_of(*views[v]), {}});
+    }
+    append(result.warnings, saturation_warnings(request.config.accelerator().data_path(), first));
+    append(result.warnings, lens_warnings(first.camera, first.projection));
+}
+
+void put_host(const RunRequest& request, RunResult& result, double run_s) {
+    result.host.fidelity = result.sampling ? "sampled" : name_of(request.fidelity);
+    result.host.elaborate_s = result.accelerator.elaborate_s;
+    result.host.sim_s = result.accelerator.sim_s;
+    result.host.drawing_s = result.accelerator.drawing_s;
+    result.host.activations = result.accelerator.activations;
+    result.host.run_s = run_s;
+    result.host.peak_rss_bytes = peak_rss_bytes();
+}
+
 } // namespace
 
-RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames) {
+RunResult run_frames(const RunRequest& request, FrameSource frames) {
     const CpuStopwatch clock;
     RunResult result;
-    result.config = request.config;
-    result.camera = frames.front()->camera;
-    result.workload = facts_of(*frames.front());
-    result.warnings = request.config.warnings;
-    const auto views = static_cast<std::size_t>(request.views);
-    if (frames.size() > views) {
-        result.changes = frame_changes(first_views(frames, views));
-    }
-    for (std::size_t v = 0; views > 1 && v < views; ++v) {
-        result.views.push_back({frames[v]->camera, facts_of(*frames[v]), {}});
-    }
-    for (std::string& sentence :
-         saturation_warnings(request.config.accelerator().data_path(), *frames.front())) {
-        result.warnings.push_back(std::move(sentence));
-    }
-    for (std::string& sentence :
-         lens_warnings(frames.front()->camera, frames.front()->projection)) {
-        result.warnings.push_back(std::move(sentence));
-    }
-    for (std::string& sentence : near_plane_warnings(frames)) {
-        result.warnings.push_back(std::move(sentence));
-    }
+    TakenFrames taken(std::move(frames), request.views);
+    put_first_frame(request, taken.first(), result);
     std::string refusal;
     double lost_s = 0;
     std::optional<SampledResult> sampled;
     if (request.sampling) {
-        sampled = try_sample(request, frames, refusal, lost_s);
+        if (taken.several()) {
+            throw InputError("A sample of tiles is of one frame, but the run has several; "
+                             "--frames cannot be combined with --within or --fidelity sampled.");
+        }
+        sampled = try_sample(request, *taken.first().front(), refusal, lost_s);
     }
-    if (!refusal.empty()) {
-        result.warnings.push_back(refusal);
-    }
+    std::vector<std::string> later; // warnings of the run
     if (sampled) {
         result.accelerator = std::move(sampled->result);
         result.sampling = std::move(sampled->facts);
     } else {
         Progress progress("simulation");
         result.accelerator =
-            run_accelerator(request.config.accelerator(), frames, request.fidelity, request.build,
-                            request.recording, progress, request.views);
-    }
-    if (!sampled && !result.accelerator.images.empty()) {
-        for (std::string& sentence : saturation_warnings(request.config.accelerator().data_path(),
-                                                         result.accelerator.images.front())) {
-            result.warnings.push_back(std::move(sentence));
+            run_accelerator(request.config.accelerator(), taken.source(), request.fidelity,
+                            request.build, request.recording, progress, request.views);
+        if (!result.accelerator.images.empty()) {
+            later = saturation_warnings(request.config.accelerator().data_path(),
+                                        result.accelerator.images.front());
         }
     }
-    for (std::string& sentence : hazard_warnings(result.accelerator)) {
-        result.warnings.push_back(std::move(sentence));
+    if (taken.several()) {
+        result.changes = taken.changes();
     }
-    result.host.fidelity = sampled ? "sampled" : name_of(request.fidelity);
-    result.host.elaborate_s = result.accelerator.elaborate_s;
-    result.host.sim_s = result.accelerator.sim_s;
-    result.host.drawing_s = result.accelerator.drawing_s;
-    result.host.activations = result.accelerator.activations;
-    result.host.run_s = lost_s + clock.seconds();
-    result.host.peak_rss_bytes = peak_rss_bytes();
+    append(result.warnings, taken.near_plane().sentences());
+    if (!refusal.empty()) {
+        result.warnings.push_back(refusal);
+    }
+    append(result.warnings, later);
+    append(result.warnings, hazard_warnings(result.accelerator));
+    put_host(request, result, lost_s + clock.seconds() - taken.made_s());
     return result;
 }
 

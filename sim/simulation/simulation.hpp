@@ -104,6 +104,8 @@ std::uint64_t peak_rss_bytes();
 std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
+/// InputError for more frames than the scene has.
+void require_frames(const DynamicScene& scene, int frames);
 /// The frames of a scene that changes, made like those of a cloud: frame k, seen by the `views`
 /// cameras from k x views on. InputError for more frames than the scene has.
 std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
@@ -137,11 +139,12 @@ std::size_t images_of(const RunResult& result);
 const Image& image_of(const RunResult& result, std::size_t image);
 const std::optional<ImageError>& error_of(const RunResult& result, std::size_t image);
 
-/// Runs the accelerator on frames that were made for it (at least one). The caller fills in the
-/// facts of the scene, the host times of earlier steps and the comparison. Throws std::logic_error
-/// if the model violates an invariant. May be called once per process. If a sample is asked for
-/// that does not reach the interval, the run is exact, with a warning; another process may go on
-/// with it then.
-RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames);
+/// Runs the accelerator on frames that are made for it (at least one, of as many views as the
+/// request says), each when it is needed. The caller fills in the facts of the scene, the host
+/// times of earlier steps and the comparison. Throws std::logic_error if the model violates an
+/// invariant. May be called once per process. If a sample is asked for that does not reach the
+/// interval, the run is exact, with a warning; another process may go on with it then. InputError
+/// for a sample of several frames.
+RunResult run_frames(const RunRequest& request, FrameSource frames);
 
 } // namespace degs::sim

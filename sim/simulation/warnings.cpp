@@ -61,12 +61,15 @@ std::vector<std::string> near_plane_warnings(const CullCounts& culled,
             "commands without a configuration, sets another plane."};
 }
 
-std::vector<std::string> near_plane_warnings(const std::vector<const FrameWorkload*>& frames) {
-    const FrameWorkload& worst = **std::max_element(
-        frames.begin(), frames.end(), [](const FrameWorkload* a, const FrameWorkload* b) {
-            return a->culled.near_in_view < b->culled.near_in_view;
-        });
-    return near_plane_warnings(worst.culled, worst.projection, worst.gaussians);
+std::vector<std::string> near_plane_warnings(const FrameWorkload& frame) {
+    return near_plane_warnings(frame.culled, frame.projection, frame.gaussians);
+}
+
+void WorstNearPlane::add(const FrameWorkload& frame) {
+    if (frame.culled.near_in_view > most_) {
+        most_ = frame.culled.near_in_view;
+        sentences_ = near_plane_warnings(frame);
+    }
 }
 
 std::vector<std::string> lens_warnings(const Camera& camera, const ProjectionOptions& options) {

@@ -19,8 +19,17 @@ std::vector<std::string> saturation_warnings(const DataPathOptions& options, con
 std::vector<std::string> near_plane_warnings(const CullCounts& culled,
                                              const ProjectionOptions& options,
                                              std::uint64_t gaussians);
+std::vector<std::string> near_plane_warnings(const FrameWorkload& frame);
 /// The sentence on the near plane for the frame of a path that loses the most Gaussians.
-std::vector<std::string> near_plane_warnings(const std::vector<const FrameWorkload*>& frames);
+class WorstNearPlane {
+public:
+    void add(const FrameWorkload& frame);
+    const std::vector<std::string>& sentences() const { return sentences_; }
+
+private:
+    std::uint64_t most_ = 0;
+    std::vector<std::string> sentences_;
+};
 /// A sentence for a lens whose distortion the rules leave out, if that moves a corner of the image
 /// by a hundredth of a pixel or more.
 std::vector<std::string> lens_warnings(const Camera& camera, const ProjectionOptions& options);

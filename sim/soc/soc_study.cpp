@@ -76,7 +76,7 @@ public:
             make_frame_workload(cloud_, camera_, config.tile_size_px(), config.tile_mode(),
                                 config.data_path().rules.options(antialiased_));
         result.psnr_db = psnr(pixels_, frame);
-        result.warnings = near_plane_warnings({&frame});
+        result.warnings = near_plane_warnings(frame);
     }
 
     SocResult result;

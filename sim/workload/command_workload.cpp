@@ -59,7 +59,7 @@ void run_export(const ExportOptions& options) {
     CachedView view(options.view, PathRequest(),
                     options.no_cache ? FrameCache() : FrameCache::of_user());
     const OutputFolder out(options.out, workload_files());
-    const std::vector<FrameWorkload> frames = view.frames(design);
+    const std::vector<FrameWorkload> frames = view.first_frame(design);
     view.keep(frames, {});
     view.forget_cloud();
     const FrameWorkload& frame = frames.front();
@@ -72,7 +72,7 @@ void run_export(const ExportOptions& options) {
     });
     print_warnings(config.warnings);
     print_warnings(view.facts().notes);
-    print_warnings(near_plane_warnings({&frame}));
+    print_warnings(near_plane_warnings(frame));
     print(layout({{"scene", scene_words(view.facts()) + " · " + grouped(work.splats) + " visible"},
                   {"design", design.name + " · tiles of " + std::to_string(work.tile_size) + " px"},
                   {"lists", grouped(work.lists.records) + " entries in " + grouped(work.tiles) +

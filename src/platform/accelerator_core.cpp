@@ -44,12 +44,9 @@ AcceleratorCore::AcceleratorCore(Accelerator& shell, const AcceleratorConfig& co
         [this](std::uint64_t address, const unsigned char* data, std::uint64_t bytes) {
             scene_changed_ = scene_changed_ || !scene_.matches(address, data, bytes);
         });
-    job_.tile_size = config_->tile_size_px();
-    job_.record_order = config_->record_order();
-    job_.tile_order = config_->tile_order;
-    job_.path = make_data_path(config_->data_path(), job_.tile_size, config_->tile_contexts());
+    job_ = make_render_job(*config_);
+    job_.keeps_results = false;
     job_.joined = std::make_unique<sc_core::sc_event>();
-    job_.frames_join = true;
     if (options.timeline != nullptr) {
         job_.recorder = std::make_unique<SlotRecorder>(options.timeline);
     }
@@ -152,21 +149,13 @@ AcceleratorFault AcceleratorCore::prepare() {
     }
 }
 
-// All frames of the job have ended. Some units are still busy with the last one when its pixels are
-// written, and lists may be kept from it.
-void AcceleratorCore::retire_frames() {
-    const std::size_t frames = job_.frames.size();
-    if (frames != 0) {
-        job_.retire_before(static_cast<std::uint32_t>(frames - 1));
-    }
-    while (workloads_.size() > frames - job_.frames.first()) {
-        workloads_.pop_front();
-    }
-}
-
 // The frame joins the job only if all of it fits.
 AcceleratorFault AcceleratorCore::make_workload() {
-    retire_frames();
+    // All frames of the job have ended. Some units are still busy with the last one when its pixels
+    // are written, and lists may be kept from it.
+    if (const std::size_t frames = job_.frames.size(); frames != 0) {
+        job_.retire_before(static_cast<std::uint32_t>(frames - 1));
+    }
     std::uint32_t dropped = 0;
     const GaussianCloud cloud = scene_.cloud(dropped);
     const ProjectionOptions options = projection_of(config_->data_path(), options_.antialiased);
@@ -179,7 +168,7 @@ AcceleratorFault AcceleratorCore::make_workload() {
         return {AcceleratorError::SmallWorkspace,
                 AcceleratorRegisters::offset_of(Register::WorkspaceBytes)};
     }
-    workloads_.push_back(std::move(work));
+    workload_ = std::make_shared<FrameWorkload>(std::move(work));
     return {};
 }
 
@@ -189,7 +178,7 @@ AcceleratorFault AcceleratorCore::render() {
     scene_changed_ = false;
     self_.advance_to(time_.clock.ceil(sc_core::sc_time_stamp()));
     const Cycle started = self_.local();
-    job_.add(workloads_.back(), request_.bases);
+    job_.add(std::move(workload_), request_.bases);
     job_.joined->notify(sc_core::SC_ZERO_TIME);
     finished_.get(self_);
     self_.sync();

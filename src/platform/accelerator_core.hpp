@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
 #include <memory>
 
 #include "degs/accelerator.hpp"
@@ -59,7 +58,6 @@ private:
 
     AcceleratorFault serve();
     AcceleratorFault prepare();
-    void retire_frames();
     AcceleratorFault make_workload();
     AcceleratorFault render();
     void count_frame(Cycle started, const MemoryTraffic& before);
@@ -78,7 +76,7 @@ private:
     AcceleratorRequest request_; // of the present frame
     SceneCopy scene_;
     bool scene_changed_ = false;
-    std::deque<FrameWorkload> workloads_; // of the frames that the job keeps
+    FramePointer workload_; // of the present frame
     RenderJob job_;
     Process self_;
     DatedFifo<std::uint32_t> finished_;

@@ -13,16 +13,23 @@
 
 namespace degs::test {
 
+/// Whether the frames of a job are there from the start, or each when a block first asks for it.
+enum class Joining { AtOnce, InTurn };
+
 /// One accelerator with its job. Several may live in one elaboration.
 class EngineRun {
 public:
     EngineRun(const std::string& name, const AcceleratorConfig& config,
               const std::vector<const FrameWorkload*>& frames, Fidelity fidelity = Fidelity::Exact,
-              const BuildOptions& options = {}, int views = 1)
+              const BuildOptions& options = {}, int views = 1, Joining joining = Joining::AtOnce)
         : time_{ClockDomain(config.clock_ghz), fidelity},
-          job_(make_render_job(frames, config, views)), pes_(config.pes()),
-          clock_ghz_(config.clock_ghz) {
+          job_(joining == Joining::AtOnce ? make_render_job(frames, config, views)
+                                          : make_render_job(config, views)),
+          pes_(config.pes()), clock_ghz_(config.clock_ghz) {
         EXPECT_EQ(config.problem(), "");
+        if (joining == Joining::InTurn) {
+            take_in_turn(source_of(frames));
+        }
         engine_ = config.build(name.c_str(), time_, job_, options);
     }
     const RenderJob& job() const { return job_; }
@@ -42,12 +49,23 @@ public:
     void expect_reference() const { expect_reference_pixels(job_, result().fragments()); }
     /// Every number of the result in words, to compare runs by.
     std::string words() const;
+    /// The most frames that were there when another one joined.
+    std::size_t most_kept() const { return most_kept_; }
 
 private:
+    void take_in_turn(FrameSource source) {
+        job_.source = {source.frames, [this, source]() mutable {
+                           most_kept_ =
+                               std::max(most_kept_, job_.frames.size() - job_.frames.first());
+                           return source.take();
+                       }};
+    }
+
     Timebase time_;
     RenderJob job_;
     int pes_;
     double clock_ghz_;
+    std::size_t most_kept_ = 0;
     std::unique_ptr<RenderEngine> engine_;
 };
 

@@ -101,7 +101,7 @@ std::string run_one(const Trial& trial, const std::string& configs, const std::s
     for (const FrameWorkload& workload : workloads) {
         frames.push_back(&workload);
     }
-    sim::RunResult result = sim::run_frames(request, frames);
+    sim::RunResult result = sim::run_frames(request, source_of(frames));
     result.scene = sim::facts_of(view.scene);
     ordered_json report = sim::report(result);
     report.erase("host");

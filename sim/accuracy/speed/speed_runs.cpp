@@ -67,7 +67,7 @@ void compare_pictures(const Image& truth, const Image& image, SpeedOutcome& outc
 std::string run_in_child(const RunRequest& request, const FrameWorkload& frame,
                          const Image& truth) {
     Progress::silence();
-    RunResult result = run_frames(request, {&frame});
+    RunResult result = run_frames(request, source_of({&frame}));
     SpeedOutcome outcome = outcome_of(result);
     Image& image = result.accelerator.images.front();
     if (truth.rgb.empty()) {
@@ -89,7 +89,7 @@ public:
     SpeedResult measure() {
         SpeedResult result;
         for (const SpeedDesign& design : request_.designs) {
-            frames_ = view_.frames(design.config.accelerator());
+            frames_ = view_.first_frame(design.config.accelerator());
             if (accelerator_ != design.accelerator) {
                 begin_accelerator(design);
                 if (result.rows.empty()) {
@@ -107,7 +107,7 @@ private:
     /// The run that the others are measured against is the first one.
     void begin_accelerator(const SpeedDesign& design) {
         accelerator_ = design.accelerator;
-        print_warnings(near_plane_warnings({&frames_.front()}));
+        print_warnings(near_plane_warnings(frames_.front()));
         const Reference reference = view_.reference(frames_.front());
         render_s_ = reference.render_s;
         fragments_ = reference.counts.fragments;

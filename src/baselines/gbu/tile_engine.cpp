@@ -126,7 +126,7 @@ void TileEngine::take_context() {
 
 // The rest of an abandoned tile is thrown away, a chunk per cycle.
 void TileEngine::work() {
-    const std::uint32_t first_splat = job_.first_splat[tile_->frame];
+    const std::uint32_t first_splat = tile_->first_splat;
     const FrameWorkload& frame = job_.frame_of(*tile_);
     for (bool last = false; !last;) {
         const Cycle ready = self_.local();

@@ -100,7 +100,7 @@ ColourStage::Survivors ColourStage::filter(const SplatChunk& group) {
     Survivors left;
     left.group = group;
     for (std::uint64_t i = group.first; i < group.first + group.count; ++i) {
-        const std::uint32_t splat = job_.first_splat[view.frame] + frame.tile_splats[i];
+        const std::uint32_t splat = view.first_splat + frame.tile_splats[i];
         if (config_.skip_ended && !mask_.reaches(*job_.path, splat, view)) {
             stats_.masked++;
             continue;

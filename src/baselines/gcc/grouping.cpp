@@ -109,7 +109,7 @@ void Grouping::finish_lists(std::uint32_t f) {
     }
     stats_.view_entries += frame.tile_pairs();
     frames_grouped_.push_back(grouper_.local());
-    frames_grouped_.drop_before(job_.frames.first());
+    frames_grouped_.drop_before(job_.first_dated());
     for (auto& port : out) {
         port->put(grouper_, f);
     }

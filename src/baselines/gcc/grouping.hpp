@@ -101,7 +101,7 @@ private:
     std::uint64_t writes_ = 0;
     std::vector<Region> regions_; // of each eye whose means are read together
     Completion last_write_;
-    KeptList<Cycle> frames_grouped_; // of the frames that the job keeps
+    KeptList<Cycle> frames_grouped_; // from RenderJob::first_dated() on
     Stats stats_;
 };
 

@@ -9,7 +9,7 @@
 namespace degs::gcc {
 
 void Engine::collect(AcceleratorResult& result) const {
-    collect_frames(result, image_buffers_, frame_ends_.background());
+    collect_frames(result, job_, image_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = sum_of(monitors_, &TileMonitor::Stats::tiles_cancelled);
     collect_slots(result);
@@ -44,9 +44,9 @@ void Engine::collect_preparation(AcceleratorResult& result) const {
         return;
     }
     double first = 0;
-    for (std::size_t c = 0; c < std::min(arrays_.size(), job_.tiles.size()); ++c) {
+    for (const auto& array : arrays_) {
         first += static_cast<double>(
-            std::min<std::uint64_t>(config_.projection.group, job_.tiles[c].count));
+            std::min<std::uint64_t>(config_.projection.group, array->first_entries()));
     }
     const double frames = std::max(1.0, ratio_of(result.frames.size(), 1));
     const auto share_of = [&](std::uint64_t gaussians) {
@@ -145,14 +145,10 @@ void Engine::collect_laws(AcceleratorResult& result) const {
     }
     using P = ProjectionStage::Stats;
     using C = ColourStage::Stats;
-    std::uint64_t view_entries = 0; // of the job, which may be a sample of the views
-    for (const JobTile& view : job_.tiles) {
-        view_entries += view.count;
-    }
     const std::uint64_t entries = sum_of(projection_, &P::entries);
     const std::uint64_t shapes = sum_of(projection_, &P::shapes);
     const std::uint64_t coloured = sum_of(colour_, &C::coloured);
-    laws.push_back({"entries of the views = read + cancelled", view_entries,
+    laws.push_back({"entries of the views = read + cancelled", job_.tiles.entries(),
                     entries + sum_of(projection_, &P::entries_cancelled)});
     laws.push_back({"entries read = projected + cancelled", entries,
                     shapes + sum_of(projection_, &P::shapes_cancelled)});

@@ -81,7 +81,7 @@ void WindowArray::render_view(SplatChunk chunk) {
     for (;; chunk = next_chunk()) {
         for (std::uint32_t i = 0; i < chunk.count; ++i) {
             const std::uint32_t splat = frame.tile_splats[chunk.first + i];
-            render(job_.first_splat[view_->frame] + splat, frame.splats[splat]);
+            render(view_->first_splat + splat, frame.splats[splat]);
         }
         if (chunk.last) {
             return;
@@ -107,6 +107,7 @@ void WindowArray::await_context() {
 void WindowArray::start_view(TileNumber number) {
     const JobTile& view = job_.tiles[number];
     view_ = &view;
+    first_entries_ = views_ == 0 ? view.count : first_entries_;
     number_ = number;
     context_ = context_in_turn(views_, share_.contexts, share_.first_context);
     const PixelRange columns = view.drawn_columns(), rows = view.drawn_rows();

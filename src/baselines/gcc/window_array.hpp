@@ -80,6 +80,8 @@ public:
 
     const Config& config() const { return config_; }
     const Stats& stats() const { return stats_; }
+    /// Entries of the list of its first view; 0 if it has had none.
+    std::uint64_t first_entries() const { return first_entries_; }
 
 private:
     /// A pixel that the splat has ended; they are chained by window.
@@ -119,6 +121,7 @@ private:
     Footprint footprint_;
     Traversal traversal_;
     const JobTile* view_ = nullptr;
+    std::uint64_t first_entries_ = 0;
     TileNumber number_ = 0;
     int context_ = 0;
     PixelRange columns_, rows_; // windows with a pixel of the image

@@ -24,7 +24,7 @@ TileNumber ChunkInputs::next_granted() {
 
 // While no tile is there, what still comes for stopped ones is all there is to do.
 TileNumber ChunkInputs::next_of_job() {
-    if (next_ >= job_.tiles.size() && !job_.over(next_)) {
+    if (!job_.lists(next_) && !job_.over(next_)) {
         wait_for_rest();
     }
     return job_.has_tile(self_, next_) ? next_++ : kNoTile;

@@ -169,7 +169,7 @@ void LockstepArray::await_context() {
 
 void LockstepArray::work(const SplatChunk& chunk, Cycle begin) {
     const FrameWorkload& frame = job_.frame_of(*tile_);
-    const std::uint32_t first_splat = job_.first_splat[tile_->frame];
+    const std::uint32_t first_splat = tile_->first_splat;
     const std::uint32_t* list = frame.tile_splats.data() + chunk.first;
     for (std::uint32_t i = 0; i < chunk.count; ++i) {
         if (live_subtiles_ == 0 && all_done(std::max(begin, scanned_))) {

@@ -158,7 +158,7 @@ void VectorUnit::start_tile(TileNumber number) {
 BatchOutcome VectorUnit::blend(const GemmBatch& batch) {
     const std::uint64_t whole = std::uint64_t{1} * job_.tile_size * job_.tile_size;
     const std::uint32_t* list = job_.frame_of(*tile_).tile_splats.data() + batch.first;
-    const std::uint32_t first_splat = job_.first_splat[tile_->frame];
+    const std::uint32_t first_splat = tile_->first_splat;
     PixelTest test;
     const PixelRange columns = tile_->drawn_columns(), rows = tile_->drawn_rows();
     test.mask = bits_between(columns.first, columns.last + 1);

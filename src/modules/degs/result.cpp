@@ -221,7 +221,7 @@ void Degs::explain_ports(AcceleratorResult& result) const {
 }
 
 void Degs::collect(AcceleratorResult& result) const {
-    collect_frames(result, blocks_.pixel_buffers, frame_ends_.background());
+    collect_frames(result, job_, blocks_.pixel_buffers, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = sum_of(blocks_.monitors, &TileMonitor::Stats::tiles_cancelled);
     collect_slots(result);

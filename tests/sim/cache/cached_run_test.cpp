@@ -9,6 +9,7 @@
 #include "scene/synthetic/synthetic.hpp"
 #include "sim/cache/cached_view.hpp"
 #include "tests/sim/process/child.hpp"
+#include "tests/sim/simulation/all_frames.hpp"
 
 namespace degs::sim_test {
 namespace {
@@ -257,10 +258,15 @@ TEST(FrameCache, KeepsTheViewsOfAChangingSceneByFrame) {
     sim::PathRequest one, two;
     one.frames = two.frames = 2;
     two.group.cameras = {0, 0};
-    sim::CachedView views(request, two, cache);
-    views.keep(views.frames(design.accelerator()), {});
-    const auto kept = sim::CachedView(request, one, cache).frames(design.accelerator());
-    const auto fresh = sim::CachedView(request, one, {}).frames(design.accelerator());
+    const auto frames_of = [&](const sim::PathRequest& path, const sim::FrameCache& of) {
+        sim::CachedView view(request, path, of);
+        const auto frames = all_frames(view, design.accelerator());
+        view.keep({frames.begin(), frames.begin() + view.views()}, {});
+        return frames;
+    };
+    frames_of(two, cache);
+    const auto kept = frames_of(one, cache);
+    const auto fresh = frames_of(one, {});
     ASSERT_EQ(kept.size(), 2U);
     ASSERT_NE(fresh[0].tile_splats, fresh[1].tile_splats);
     for (std::size_t k = 0; k < 2; ++k) {

@@ -119,7 +119,7 @@ TEST(ChangedInput, IsNotInTheCache) {
     view.forget_cloud();
     replace(file, 4100);
     const auto design = sim::load_run_config(config("degs-16"), {}, "");
-    expect_refused([&] { view.frames(design.accelerator()); }, file);
+    expect_refused([&] { view.first_frame(design.accelerator()); }, file);
     EXPECT_FALSE(cache.scene(first));
     EXPECT_FALSE(fs::exists(folder / "cache"));
 }
@@ -155,9 +155,9 @@ TEST(ChangedInput, AWorkloadAndATrace) {
     request.workload = file;
     CachedView view(request, sim::PathRequest(), {});
     const auto design = sim::load_run_config(config("degs-16"), {}, "");
-    EXPECT_EQ(view.frames(design.accelerator()).size(), 1U);
+    EXPECT_EQ(view.first_frame(design.accelerator()).size(), 1U);
     pack();
-    expect_refused([&] { view.frames(design.accelerator()); }, file);
+    expect_refused([&] { view.first_frame(design.accelerator()); }, file);
 
     const std::string trace = folder / "t";
     std::ofstream(trace) << "LD 0x0\nLD 0x40\n";

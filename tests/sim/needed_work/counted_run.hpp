@@ -56,7 +56,7 @@ inline Counts counted_run(const sim::RunConfig& config, const FrameWorkload& fra
     request.reference = false;
     Counts counts;
     const auto work = [&] {
-        return counts_of(sim::run_frames(request, {&frame}).accelerator).dump();
+        return counts_of(sim::run_frames(request, source_of({&frame})).accelerator).dump();
     };
     sim::run_children({{"counted run", work}}, 1,
                       {[&](std::size_t, sim::ChildOutcome&& outcome) {

@@ -9,6 +9,7 @@
 #include "sim/cache/cached_view.hpp"
 #include "sim/simulation/run_config.hpp"
 #include "tests/scene/scene_fixture.hpp"
+#include "tests/sim/simulation/all_frames.hpp"
 
 namespace degs::sim {
 namespace {
@@ -90,13 +91,13 @@ ViewRequest view_of(const std::string& scene) {
 TEST(DynamicFrames, AreThoseOfTheSceneSeenByOneCamera) {
     const PathRequest path{3, 0.5};
     CachedView view(view_of("synthetic:dynamic,gaussians=3000"), path, FrameCache());
-    const std::vector<FrameWorkload> frames = view.frames(design().accelerator());
+    const std::vector<FrameWorkload> frames = sim_test::all_frames(view, design().accelerator());
     ASSERT_EQ(frames.size(), 3U);
     for (int k = 0; k < 3; ++k) {
         const std::string time = std::to_string(static_cast<double>(k) / kFramesOfScene);
         CachedView still(view_of("synthetic:dynamic,gaussians=3000,time=" + time), {},
                          FrameCache());
-        const std::vector<FrameWorkload> alone = still.frames(design().accelerator());
+        const std::vector<FrameWorkload> alone = still.first_frame(design().accelerator());
         EXPECT_EQ(frames[k].camera.position, frames[0].camera.position);
         EXPECT_EQ(frames[k].tile_splats, alone[0].tile_splats) << k;
     }
@@ -110,7 +111,7 @@ TEST(DynamicFrames, AreThoseOfTheSceneSeenByOneCamera) {
 TEST(DynamicFrames, AsManyAsTheSceneHas) {
     CachedView view(view_of("synthetic:dynamic,gaussians=100"), {kFramesOfScene + 1, 0.5},
                     FrameCache());
-    EXPECT_THAT(test::complaint([&] { view.frames(design().accelerator()); }),
+    EXPECT_THAT(test::complaint([&] { view.first_frame(design().accelerator()); }),
                 test::IsSentenceWith("The scene has 50 frames, and 51 were asked for"));
 }
 

@@ -27,12 +27,9 @@ Outcome run_still(const std::string& scene, const std::string& cameras) {
     run.reference = false;
     run.recording.images = true;
     CachedView view(request, PathRequest{3, 0}, FrameCache()); // no step from frame to frame
-    const std::vector<FrameWorkload> frames = view.frames(run.config.accelerator());
-    std::vector<const FrameWorkload*> pointers;
-    for (const FrameWorkload& frame : frames) {
-        pointers.push_back(&frame);
-    }
-    RunResult result = run_frames(run, pointers);
+    const AcceleratorConfig& design = run.config.accelerator();
+    const std::vector<FrameWorkload> first = view.first_frame(design);
+    RunResult result = run_frames(run, view.frames(design, first));
     return {std::move(result.accelerator), result.changes};
 }
 

@@ -113,10 +113,14 @@ TEST(NearPlaneWarnings, TellOfTheFrameThatLosesMost) {
         frames[f].gaussians = 10;
         frames[f].culled.near = frames[f].culled.near_in_view = lost[f];
     }
-    const auto sentences = sim::near_plane_warnings({&frames[0], &frames[1], &frames[2]});
+    sim::WorstNearPlane worst;
+    for (const FrameWorkload& frame : frames) {
+        worst.add(frame);
+    }
+    const std::vector<std::string>& sentences = worst.sentences();
     ASSERT_EQ(sentences.size(), 1U);
     EXPECT_NE(sentences[0].find("removes 7 of 10 Gaussians"), std::string::npos) << sentences[0];
-    EXPECT_TRUE(sim::near_plane_warnings({&frames[2]}).empty());
+    EXPECT_TRUE(sim::near_plane_warnings(frames[2]).empty());
 }
 
 TEST(SmallRunWarnings, SinglePrecisionHasNone) {

@@ -45,16 +45,27 @@ DrawingThread::~DrawingThread() {
 // The simulation's side: it reads what is published, and says what it has taken and what it waits
 // for.
 
+// The thread stands still while the list of tiles changes. All that have retired have been closed
+// when it has heard of them.
 void DrawingThread::hand_over_joined() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    while (slots_.size() < job_.tiles.size()) {
-        joined_.push_back(&slots_.emplace_back(job_.tiles[slots_.size()]));
+    {
+        const std::lock_guard<TurnMutex> lock(*job_.changes);
+        receive();
+        while (slots_end() < job_.tiles.size()) {
+            slots_.emplace_back(job_.tiles[slots_end()]);
+        }
+        for (; first_slot_ < job_.tiles.first(); ++first_slot_) {
+            slots_.pop_front();
+        }
+        next_ = std::max(next_, static_cast<TileNumber>(first_slot_));
     }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    joined_ = true;
     wanted_.notify_one();
 }
 
 PixelRange DrawingThread::rows(TileNumber number, std::uint32_t place) {
-    if (number >= slots_.size()) {
+    if (number >= slots_end()) {
         hand_over_joined();
     }
     return sheet(number, place).splats[place % Sheet::kSplats].rows;
@@ -93,10 +104,16 @@ void DrawingThread::read_row(TileNumber number, int row, int count, PixelValue* 
 }
 
 void DrawingThread::clear_row(TileNumber number, int /*row*/) {
-    if (++tile(number)->cleared == job_.tile_size) {
+    if (++tile(number)->cleared != job_.tile_size) {
+        return;
+    }
+    {
         const std::lock_guard<std::mutex> lock(mutex_);
         cleared_tiles_.push_back(number);
         wake_if_useful();
+    }
+    if (slots_end() < job_.tiles.size()) { // another frame is there to be drawn ahead
+        hand_over_joined();
     }
 }
 
@@ -106,7 +123,7 @@ DrawingThread::Sheet& DrawingThread::sheet(TileNumber number, std::uint32_t plac
     if (asked.tile == number && asked.index == index) {
         return *asked.sheet;
     }
-    const Slot& slot = slots_[number];
+    const Slot& slot = this->slot(number);
     await(number, index, [&slot, index] {
         const Tile* drawn = slot.open.load();
         return drawn != nullptr && drawn->ready.load() > index;
@@ -156,8 +173,8 @@ void DrawingThread::wake_if_useful() {
 
 void DrawingThread::run() {
     try {
-        while (receive()) {
-            if (!serve_demand() && !draw_ahead()) {
+        for (Round round = Round::Drew; round != Round::Stops; round = draw()) {
+            if (round == Round::Idle) {
                 rest();
             }
         }
@@ -168,14 +185,22 @@ void DrawingThread::run() {
     }
 }
 
+// Nothing of the job that it looks at moves meanwhile.
+DrawingThread::Round DrawingThread::draw() {
+    const std::lock_guard<TurnMutex> lock(*job_.changes);
+    if (!receive()) {
+        return Round::Stops;
+    }
+    return serve_demand() || draw_ahead() ? Round::Drew : Round::Idle;
+}
+
 // What the simulation has given back. False at the end.
 bool DrawingThread::receive() {
     {
         const std::lock_guard<std::mutex> lock(mutex_);
         received_sheets_.swap(taken_sheets_);
         received_tiles_.swap(cleared_tiles_);
-        known_.insert(known_.end(), joined_.begin(), joined_.end());
-        joined_.clear();
+        joined_ = false;
         if (stop_) {
             return false;
         }
@@ -199,9 +224,6 @@ bool DrawingThread::serve_demand() {
         return false;
     }
     const auto number = static_cast<TileNumber>(demand >> 32U);
-    if (number >= known_.size()) {
-        return true; // it has joined since receive()
-    }
     Tile& tile = open(number);
     const auto sheet = static_cast<std::uint32_t>(demand);
     const bool met = sheet == kWholeTile ? tile.final.load() : tile.ready.load() > sheet;
@@ -217,8 +239,8 @@ bool DrawingThread::draw_ahead() {
     if (bytes_ >= kMostBytes || open_tiles_ >= kMostTiles) {
         return false;
     }
-    for (; next_ < known_.size(); ++next_) {
-        if (known_[next_]->passed) {
+    for (; next_ < slots_end(); ++next_) {
+        if (slot(next_).passed) {
             continue;
         }
         Tile& tile = open(next_);
@@ -236,13 +258,13 @@ void DrawingThread::rest() {
     wanted_.wait(lock, [this] {
         return stop_ || (demand_ != kNoDemand && demand_ != met_) ||
                taken_sheets_.size() >= kWakingSheets || cleared_tiles_.size() >= kWakingTiles ||
-               !joined_.empty();
+               joined_;
     });
     thread_sleeps_ = false;
 }
 
 DrawingThread::Tile& DrawingThread::open(TileNumber number) {
-    Slot& slot = *known_[number];
+    Slot& slot = this->slot(number);
     if (Tile* tile = slot.open.load()) {
         return *tile;
     }
@@ -265,7 +287,7 @@ DrawingThread::Tile& DrawingThread::open(TileNumber number) {
 }
 
 void DrawingThread::close(TileNumber number) {
-    Slot& slot = *known_[number];
+    Slot& slot = this->slot(number);
     Tile& tile = *slot.open.exchange(nullptr);
     slot.passed = true;
     for (Sheet* sheet : tile.sheets) {

@@ -25,10 +25,9 @@ namespace degs {
 ///
 /// The thread owns the pixels of the data path. It publishes sheets, which hold the rows of some
 /// neighbouring splats of a list, and the pixels of tiles that will not change; the simulation
-/// reads nothing else.
+/// reads nothing else. Whenever it draws, it holds RenderJob::changes.
 class DrawingThread final : public TileDrawing {
 public:
-    /// Tiles may join the job, frames may not: their splats would move under the thread.
     DrawingThread(RenderJob& job, const DrawingOptions& options);
     ~DrawingThread() override;
 
@@ -79,14 +78,18 @@ private:
 
     // The simulation's side.
     void hand_over_joined();
-    Tile* tile(TileNumber number) { return slots_[number].open.load(); }
+    std::size_t slots_end() const { return first_slot_ + slots_.size(); }
+    Slot& slot(TileNumber number) { return slots_[number - first_slot_]; }
+    Tile* tile(TileNumber number) { return slot(number).open.load(); }
     Sheet& sheet(TileNumber number, std::uint32_t place);
     template <class Ready>
     void await(TileNumber number, std::uint32_t sheet, const Ready& ready);
     void wake_if_useful();
 
     // The thread's side.
+    enum class Round { Drew, Idle, Stops };
     void run();
+    Round draw();
     bool receive();
     bool serve_demand();
     bool draw_ahead();
@@ -102,12 +105,12 @@ private:
 
     RenderJob& job_;
     DrawingOptions options_;
-    std::deque<Slot> slots_;          // by tile; the simulation adds some
+    std::deque<Slot> slots_; // by tile; changed with RenderJob::changes alone
+    std::size_t first_slot_ = 0;
     std::array<Asked, kAsked> asked_; // by tile modulo their number
     double waited_s_ = 0;
 
     TileCanvases canvases_;
-    std::vector<Slot*> known_; // by tile
     std::vector<std::unique_ptr<Tile>> all_tiles_;
     std::vector<std::unique_ptr<Sheet>> all_sheets_;
     std::vector<Tile*> free_tiles_;
@@ -124,7 +127,7 @@ private:
     std::condition_variable published_, wanted_;
     std::vector<Sheet*> taken_sheets_;
     std::vector<TileNumber> cleared_tiles_;
-    std::vector<Slot*> joined_;
+    bool joined_ = false;
     std::exception_ptr failure_;
     bool stop_ = false;
     std::thread thread_; // starts when everything else is there

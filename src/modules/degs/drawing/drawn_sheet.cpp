@@ -15,10 +15,10 @@ void DrawnSheet::draw(RenderJob& job, const JobTile& tile, std::uint32_t index,
     const std::uint32_t first = index * kSplats;
     const std::uint32_t count = splats_of(tile, index);
     for (std::uint32_t i = 0; i < count; ++i) {
-        job.path->expect(listed_splat(job, tile, first + i));
+        job.path->expect(tile.splat(first + i));
     }
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t splat = listed_splat(job, tile, first + i);
+        const std::uint32_t splat = tile.splat(first + i);
         const PixelRange rows = sliced_rows(job, tile, splat, options.rows);
         const std::size_t before = drawn.size();
         splats[i] = {rows, before};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/degs/drawing/kept_drawing.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -44,8 +45,8 @@ std::string KeptDrawing::key(const JobTile& tile) const {
 }
 
 KeptDrawing::Tile& KeptDrawing::tile(TileNumber number) {
-    if (number >= tiles_.size()) {
-        tiles_.resize(job_.tiles.size());
+    while (number >= tiles_.size()) {
+        tiles_.emplace_back();
     }
     std::unique_ptr<Tile>& place = tiles_[number];
     if (place == nullptr) {
@@ -179,6 +180,7 @@ void KeptDrawing::clear_row(TileNumber number, int row) {
         canvases_.close(done.canvas);
     }
     tiles_[number] = nullptr;
+    tiles_.drop_before(std::min(job_.tiles.first(), tiles_.size()));
 }
 
 } // namespace degs

@@ -20,7 +20,7 @@ namespace degs {
 class KeptDrawing final : public TileDrawing {
 public:
     /// `pixels` names what the pixels of the job's frames depend on beside them, see
-    /// KeptTiles. No frame joins the job later.
+    /// KeptTiles.
     KeptDrawing(RenderJob& job, const DrawingOptions& options, const std::string& pixels,
                 SharedBytes& kept);
 
@@ -60,7 +60,7 @@ private:
     SharedBytes& kept_;
     std::string name_; ///< of these pixels, the first part of all keys
     TileCanvases canvases_;
-    std::vector<std::unique_ptr<Tile>> tiles_; ///< by number; null: not begun, or over
+    KeptList<std::unique_ptr<Tile>> tiles_; ///< by number; null: not begun, or over
     std::vector<std::unique_ptr<DrawnSheet>> free_sheets_;
 };
 

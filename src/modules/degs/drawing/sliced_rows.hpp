@@ -12,17 +12,12 @@ namespace degs {
 /// inside the tile's columns.
 enum class SlicedRows { Splat, Tile };
 
-/// The splat at a place of a tile's list, as the data path counts it.
-inline std::uint32_t listed_splat(const RenderJob& job, const JobTile& tile, std::uint32_t place) {
-    return job.first_splat[tile.frame] + job.frame_of(tile).tile_splats[tile.first + place];
-}
-
 /// A hint that the splats of a chunk will be needed soon.
 inline void expect_listed(const RenderJob& job, const SplatChunk& chunk) {
     const JobTile& tile = job.tiles[chunk.tile];
     const auto first = static_cast<std::uint32_t>(chunk.first - tile.first);
     for (std::uint32_t i = 0; i < chunk.count; ++i) {
-        job.path->expect(listed_splat(job, tile, first + i));
+        job.path->expect(tile.splat(first + i));
     }
 }
 

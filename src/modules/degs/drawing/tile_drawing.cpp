@@ -23,7 +23,7 @@ public:
 
     PixelRange rows(TileNumber number, std::uint32_t place) override {
         const JobTile& tile = job_.tiles[number];
-        return sliced_rows(job_, tile, listed_splat(job_, tile, place), options_.rows);
+        return sliced_rows(job_, tile, tile.splat(place), options_.rows);
     }
 
     void take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
@@ -32,7 +32,7 @@ public:
             return;
         }
         const JobTile& tile = job_.tiles[number];
-        canvases_.draw(canvas(number), tile, listed_splat(job_, tile, place), own, step, drawn);
+        canvases_.draw(canvas(number), tile, tile.splat(place), own, step, drawn);
         for (int row = own.first; row <= own.last; row += step, ++drawn) {
             count(*drawn);
         }
@@ -83,10 +83,10 @@ private:
 
 std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options,
                                                const KeptTiles& kept) {
-    if (kept.bytes != nullptr && !job.frames_join) {
+    if (kept.bytes != nullptr) {
         return std::make_unique<KeptDrawing>(job, options, kept.pixels, *kept.bytes);
     }
-    if (host_threads() > 1 && !job.frames_join) {
+    if (host_threads() > 1) {
         try {
             return std::make_unique<DrawingThread>(job, options);
         } catch (const std::system_error&) {

@@ -58,8 +58,8 @@ struct KeptTiles {
 };
 
 /// Takes and keeps tiles that others draw, too, if there are others. Else draws on a thread of its
-/// own, ahead of the simulation, if the host may use another processor and no frame joins the job
-/// later; otherwise each splat when it is taken. Results are the same. `job` must outlive it.
+/// own, ahead of the simulation, if the host may use another processor; otherwise each splat when
+/// it is taken. Results are the same. `job` must outlive it.
 std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options,
                                                const KeptTiles& kept = {});
 

@@ -338,7 +338,7 @@ void GaussianSlicingUnit::begin(TileNumber number, Slice& slice) {
     const JobTile& tile = job_.tiles[number];
     const auto place = static_cast<std::uint32_t>(chunk_.first + dealt_ - tile.first);
     ++dealt_;
-    slice.splat = listed_splat(job_, tile, place);
+    slice.splat = tile.splat(place);
     slice.chunk = open_chunks_.latest();
     const PixelRange rows = drawing_ != nullptr
                                 ? drawing_->rows(number, place)

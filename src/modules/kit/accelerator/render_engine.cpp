@@ -59,12 +59,21 @@ void AcceleratorConfig::scale_to(int pes) {
                      " belongs to no family that says what other sizes look like.");
 }
 
-RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
-                          const AcceleratorConfig& config, int views) {
-    RenderJob job = make_render_job(frames, config.data_path(), config.tile_contexts(),
-                                    config.record_order(), config.tile_order);
+RenderJob make_render_job(const AcceleratorConfig& config, int views) {
+    RenderJob job =
+        make_render_job(config.data_path(), config.tile_size_px(), config.tile_contexts(),
+                        config.record_order(), config.tile_order);
     if (config.view_sharing() != ViewSharing::Nothing) {
         job.views = views;
+    }
+    return job;
+}
+
+RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
+                          const AcceleratorConfig& config, int views) {
+    RenderJob job = make_render_job(config, views);
+    for (const FrameWorkload* frame : frames) {
+        job.add(borrowed(*frame));
     }
     return job;
 }

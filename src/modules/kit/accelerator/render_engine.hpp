@@ -177,8 +177,10 @@ private:
     virtual void describe_rows(ConfigVisitor& visitor) = 0;
 };
 
-/// The job of rendering `frames` with the data path that `config` asks for. `views` consecutive
-/// ones are views of one frame, of the same Gaussians; their number divides that of the frames.
+/// A job without frames for the data path that `config` asks for. `views` consecutive ones will be
+/// views of one frame, of the same Gaussians; their number divides that of the frames.
+RenderJob make_render_job(const AcceleratorConfig& config, int views = 1);
+/// Such a job with these frames, which outlive it.
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
                           const AcceleratorConfig& config, int views = 1);
 

@@ -24,20 +24,16 @@ void add_activity(AcceleratorResult& result, const char* block, double operation
 }
 
 void add_pixel_activity(AcceleratorResult& result, const RenderJob& job, double pixel_bytes) {
-    std::uint64_t pixels = 0;
-    for (const JobTile& tile : job.tiles) {
-        pixels += tile.pixels();
-    }
     const std::uint64_t tasks = result.slots.executed() / result.slots_per_fragment;
-    const std::uint64_t accesses = tasks + result.fragments() + pixels;
+    const std::uint64_t accesses = tasks + result.fragments() + job.tiles.pixels();
     add_activity(result, "pixel_buffer", rate_of(accesses, 1) * pixel_bytes);
 }
 
-void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
+void collect_frames(AcceleratorResult& result, const RenderJob& job, const PixelBuffers& buffers,
                     const BackgroundWriter& background) {
     collect_written(result, background.frames_written());
     result.cycles = background.stats().finished;
-    result.background_tiles = background.stats().tiles;
+    result.background_tiles = job.background_tiles;
     for (const auto& buffer : buffers) {
         collect_written(result, buffer->frames_written());
         result.cycles = std::max(result.cycles, buffer->stats().finished);

@@ -103,7 +103,7 @@ using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;
 
 /// Fills in the dates of the frames, the cycles of the run and the background tiles. It comes
 /// first, because everything that is relative to the run needs its cycles.
-void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
+void collect_frames(AcceleratorResult& result, const RenderJob& job, const PixelBuffers& buffers,
                     const BackgroundWriter& background);
 /// `bytes`: of all instances together.
 void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int contexts,

@@ -5,11 +5,12 @@
 namespace degs {
 
 void FrameEnds::build(const FrameEndConfig& config, const Timebase& time,
-                      const TrafficConfig& traffic, const RenderJob& job,
-                      const PixelBuffers& buffers, const FrontEnd& front_end, std::uint64_t reports,
+                      const TrafficConfig& traffic, RenderJob& job, const PixelBuffers& buffers,
+                      const FrontEnd& front_end, std::uint64_t reports,
                       const BuildOptions& options) {
     auto& listeners = front_end.frame_free;
     const bool gated = awaited(listeners, options);
+    job.ends.of_tile = reports;
     background_ = std::make_unique<BackgroundWriter>("background", traffic, time, job,
                                                      config.background_cycles_per_write, gated,
                                                      options.array_only);

@@ -31,7 +31,7 @@ public:
 
     /// `reports`: see FrameGate.
     void build(const FrameEndConfig& config, const Timebase& time, const TrafficConfig& traffic,
-               const RenderJob& job, const PixelBuffers& buffers, const FrontEnd& front_end,
+               RenderJob& job, const PixelBuffers& buffers, const FrontEnd& front_end,
                std::uint64_t reports, const BuildOptions& options);
     void connect_memory(MemoryStreams& streams) {
         streams.connect(background_->frame_buffer, stream_kinds::kFrameBuffer);

@@ -123,15 +123,11 @@ std::size_t TiledAccelerator::finished_tiles() const {
 }
 
 std::uint64_t TiledAccelerator::list_entries() const {
-    std::uint64_t entries = 0;
-    for (const JobTile& tile : job_.tiles) {
-        entries += tile.count;
-    }
-    return entries;
+    return job_.tiles.entries();
 }
 
 void TiledAccelerator::collect(AcceleratorResult& result) const {
-    collect_frames(result, pixel_buffers_, frame_ends_.background());
+    collect_frames(result, job_, pixel_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = sum_of(monitors_, &TileMonitor::Stats::tiles_cancelled);
     front_end_->collect(result);

@@ -22,10 +22,11 @@ public:
 
     /// `reports`: messages per tile, i.e. Pixel Buffers that write a share of each; one more comes
     /// per frame, for its background.
-    FrameGate(const sc_core::sc_module_name& name, const Timebase& time, const RenderJob& job,
+    FrameGate(const sc_core::sc_module_name& name, const Timebase& time, RenderJob& job,
               std::size_t inputs, std::size_t listeners, std::uint64_t reports)
         : sc_core::sc_module(name), in("in", inputs), out("out", listeners), job_(job), self_(time),
           reports_(reports) {
+        job_.ends.of_frame++;
         DEGS_HAS_PROCESS(FrameGate);
         SC_THREAD(run);
         self_.show(*this);
@@ -56,6 +57,7 @@ private:
                 port->put(self_, f);
             }
             seen_.drop_before(f + 1);
+            job_.note_end(f);
         }
         self_.finish();
     }
@@ -73,7 +75,7 @@ private:
         return seen_[frame];
     }
 
-    const RenderJob& job_;
+    RenderJob& job_;
     Process self_;
     std::uint64_t reports_;
     KeptList<std::uint64_t> seen_; // reports, per frame

@@ -27,9 +27,8 @@ void ListLoader::run() {
             start->get(self_);
         }
     };
-    // Where frames join, those before the tile have ended: their messages are there, and would pile
-    // up before a unit that never has a tile.
-    const auto pass = [&](const JobTile& tile) { take_starts(job_.frames_join ? tile.frame : 0); };
+    // The messages of frames before the tile would pile up before a unit that never has a tile.
+    const auto pass = [&](const JobTile& tile) { take_starts(tile.frame); };
     while (tiles_.next(self_, pass)) {
         const JobTile& tile = job_.tiles[tiles_.tile()];
         take_starts(tile.frame + 1);

@@ -6,7 +6,8 @@
 namespace degs {
 
 /// The tiles whose lists one of several like sorting units makes, in their order; see
-/// RenderJob::sorter_of().
+/// RenderJob::sorter_of(). It looks ahead to the next one: a frame with fewer tiles than units is
+/// made before the unit is there.
 class SorterTiles {
 public:
     SorterTiles(const RenderJob& job, TileNumber sorter, TileNumber sorters)
@@ -35,7 +36,7 @@ public:
     /// For those who hear from a predecessor which tile is next. True if there may be another tile
     /// after `passed`.
     bool may_follow() {
-        while (candidate_ < job_.tiles.size() && job_.sorter_of(candidate_, sorters_) != sorter_) {
+        while (job_.lists(candidate_) && job_.sorter_of(candidate_, sorters_) != sorter_) {
             ++candidate_;
         }
         return !job_.over(candidate_);

@@ -93,7 +93,7 @@ void TileBinner::run() {
             self_.wait_for_memory(last_write_); // lists are read back from memory
             stats_.frame_binned = self_.local();
             frames_binned_.push_back(self_.local());
-            frames_binned_.drop_before(job_.frames.first());
+            frames_binned_.drop_before(job_.first_dated());
             for (auto& port : out) {
                 port->put(self_, f + v);
             }

@@ -109,7 +109,7 @@ private:
     std::vector<Completion> acknowledged_; // ring of completion dates of the latest writes
     std::uint64_t writes_ = 0;
     Completion last_write_;
-    KeptList<Cycle> frames_binned_; // of the frames that the job keeps
+    KeptList<Cycle> frames_binned_; // from RenderJob::first_dated() on
     Stats stats_;
 };
 

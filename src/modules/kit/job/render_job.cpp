@@ -2,6 +2,8 @@
 #include "modules/kit/job/render_job.hpp"
 
 #include <algorithm>
+#include <mutex>
+#include <utility>
 
 namespace degs {
 
@@ -30,16 +32,20 @@ std::vector<std::uint64_t> prefix_of_pairs(const FrameWorkload& frame) {
 
 } // namespace
 
-void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
+void RenderJob::add(FramePointer added, const MemoryBases& base) {
+    const std::lock_guard<TurnMutex> lock(*changes);
     const auto f = static_cast<std::uint32_t>(frames.size());
-    frames.push_back(&frame);
+    const FrameWorkload& frame = *added;
+    frames.push_back(std::move(added));
     bases.push_back(base);
     first_splat.push_back(path->add_frame(frame));
     pair_prefix.push_back(prefix_of_pairs(frame));
     places.emplace_back(frame, record_order);
-    images.push_back(keeps_images ? Image(frame.camera.width, frame.camera.height) : Image());
+    images.push_back(f < drawn_images ? Image(frame.camera.width, frame.camera.height) : Image());
+    ends_of_frame_.push_back(0);
     const std::vector<int> listed = listed_tiles(frame, tile_order);
     const TileGrid grid = frame.grid();
+    background_tiles += grid.shown_tiles() - listed.size();
     std::uint64_t before = 0;
     for (const int t : listed) {
         const PixelBox whole = grid.pixels_of(t), drawn = grid.drawn_of(t);
@@ -55,6 +61,8 @@ void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
         tile.cut_bottom = whole.y1 - drawn.y1;
         tile.first = frame.tile_begin[t];
         tile.count = frame.tile_begin[t + 1] - tile.first;
+        tile.list = frame.tile_splats.data() + tile.first;
+        tile.first_splat = first_splat[f];
         tile.before = before;
         before += tile.count;
         tiles.push_back(tile);
@@ -79,7 +87,33 @@ bool TileList::retire(std::uint32_t frame) {
     return true;
 }
 
+bool RenderJob::add_next() {
+    std::vector<FramePointer> group;
+    while (group.size() < views) {
+        group.push_back(source.take());
+        if (group.back() == nullptr) {
+            return false;
+        }
+    }
+    retire_ended();
+    for (FramePointer& frame : group) {
+        add(std::move(frame));
+    }
+    return true;
+}
+
+// The last one that has ended stays, with all of its views: others may still look at it, see
+// retire_before().
+void RenderJob::retire_ended() {
+    while (ended_ < frames.size() &&
+           ends_of_frame_[ended_] == tiles_of_frame[ended_] * ends.of_tile + ends.of_frame) {
+        ++ended_;
+    }
+    retire_before(static_cast<std::uint32_t>(ended_ - std::min<std::size_t>(ended_, views)));
+}
+
 void RenderJob::retire_before(std::uint32_t frame) {
+    const std::lock_guard<TurnMutex> lock(*changes);
     std::size_t first = frames.first();
     for (; first < frame && tiles.retire(static_cast<std::uint32_t>(first)); ++first) {
         path->remove_frame(first_splat[first], frames[first]->splats.size());
@@ -87,7 +121,8 @@ void RenderJob::retire_before(std::uint32_t frame) {
     frames.drop_before(first);
     first_splat.drop_before(first);
     tiles_of_frame.drop_before(first);
-    images.drop_before(first);
+    ends_of_frame_.drop_before(first);
+    images.drop_before(first_dated());
     places.drop_before(first);
     pair_prefix.drop_before(first);
     bases.drop_before(first);
@@ -139,16 +174,22 @@ ScatteredRecords RenderJob::sh_records(std::uint32_t frame, const TrafficConfig&
     return records;
 }
 
-RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
-                          const DataPathOptions& options, int contexts, RecordOrder records,
-                          TileOrder tiles) {
+RenderJob make_render_job(const DataPathOptions& options, int tile_size, int contexts,
+                          RecordOrder records, TileOrder tiles) {
     RenderJob job;
     job.record_order = records;
     job.tile_order = tiles;
-    job.tile_size = frames.at(0)->tile_size;
-    job.path = make_data_path(options, job.tile_size, contexts);
+    job.tile_size = tile_size;
+    job.path = make_data_path(options, tile_size, contexts);
+    return job;
+}
+
+RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
+                          const DataPathOptions& options, int contexts, RecordOrder records,
+                          TileOrder tiles) {
+    RenderJob job = make_render_job(options, frames.at(0)->tile_size, contexts, records, tiles);
     for (const FrameWorkload* frame : frames) {
-        job.add(*frame);
+        job.add(borrowed(*frame));
     }
     return job;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <vector>
 
@@ -11,8 +10,11 @@
 #include "modules/kit/job/messages.hpp"
 #include "modules/kit/job/record_places.hpp"
 #include "modules/kit/job/slot_recorder.hpp"
+#include "modules/kit/job/tile_list.hpp"
 #include "modules/kit/job/tile_order.hpp"
 #include "modules/kit/job/traffic.hpp"
+#include "modules/kit/job/turn_mutex.hpp"
+#include "splat/frame/frame_source.hpp"
 #include "splat/frame/frame_workload.hpp"
 #include "splat/frame/pixel_index.hpp"
 #include "splat/images/image.hpp"
@@ -21,72 +23,14 @@
 
 namespace degs {
 
-/// A tile that lists at least one splat. Empty tiles never enter the pipeline.
-struct JobTile {
-    std::uint32_t frame = 0;
-    int x = 0, y = 0;          ///< top left pixel in the raster, see Camera
-    int width = 0, height = 0; ///< pixels inside the raster
-    /// How many of its first and last columns and rows are not in the image.
-    int cut_left = 0, cut_top = 0, cut_right = 0, cut_bottom = 0;
-    std::uint64_t first = 0; ///< into the frame's tile_splats
-    std::uint64_t count = 0;
-    std::uint64_t before = 0; ///< entries of the frame's tiles that are taken earlier
-    TileNumber turn = 0;      ///< tiles of its frame before it; TileList counts them
-    bool last_of_frame = false;
-    bool passed = false; ///< sorted and fetched; its list is not asked for again
-
-    // The part inside the image, which is drawn; the list and the rows are those of the whole tile.
-    PixelRange columns() const { return drawn_columns().relative_to(-x); } ///< of the raster
-    PixelRange rows() const { return drawn_rows().relative_to(-y); }       ///< of the raster
-    PixelRange drawn_columns() const { return {cut_left, width - 1 - cut_right}; } ///< of the tile
-    PixelRange drawn_rows() const { return {cut_top, height - 1 - cut_bottom}; }   ///< of the tile
-    std::int64_t pixels() const {
-        return std::int64_t{1} * drawn_columns().size() * drawn_rows().size();
-    }
-};
-
-/// Tiles that keep their place when others join or the oldest retire, so that blocks may hold on to
-/// one.
-class TileList {
-public:
-    /// The number of the next tile.
-    std::size_t size() const { return size_; }
-    /// The lowest number that has not retired.
-    std::size_t first() const { return first_; }
-    bool empty() const { return size_ == 0; }
-    JobTile& operator[](std::size_t number) { return *index_[number - first_]; }
-    const JobTile& operator[](std::size_t number) const { return *index_[number - first_]; }
-    JobTile& back() { return *index_.back(); }
-    void push_back(const JobTile& tile) {
-        const bool first = tiles_.empty() || tiles_.back().frame != tile.frame;
-        const TileNumber turn = first ? 0 : tiles_.back().turn + 1;
-        tiles_.push_back(tile);
-        tiles_.back().turn = turn;
-        index_.push_back(&tiles_.back());
-        size_ = first_ + index_.size();
-    }
-    /// Retires the tiles of a frame, which must be the oldest. False, and nothing happens, if one
-    /// of them has not been passed.
-    bool retire(std::uint32_t frame);
-    /// The iterators go over the tiles that have not retired.
-    std::deque<JobTile>::const_iterator begin() const { return tiles_.begin(); }
-    std::deque<JobTile>::const_iterator end() const { return tiles_.end(); }
-
-private:
-    std::deque<JobTile> tiles_;
-    std::vector<JobTile*> index_; // for the hot loops; a deque would have to divide
-    std::size_t first_ = 0;       // tiles that have retired
-    std::size_t size_ = 0;        // of tiles_ and those, for the hot loops
-};
-
 /// The frames that an accelerator is asked to render, and the arithmetic that it uses.
 struct RenderJob {
-    KeptList<const FrameWorkload*> frames;
+    KeptList<FramePointer> frames;
     KeptList<std::uint32_t> first_splat; ///< DataPath index of each frame's splat 0
     TileList tiles;                      ///< frame by frame, each in its tile order
     KeptList<std::uint64_t> tiles_of_frame;
-    KeptList<Image> images;   ///< one per frame, filled by the Pixel Buffer unless it is empty
-    bool keeps_images = true; ///< of frames that join from now on; else theirs are empty
+    KeptList<Image> images; ///< one per frame, filled by the Pixel Buffer unless it is empty
+    std::size_t drawn_images = ~std::size_t{0}; ///< of the first frames; those of others are empty
     std::unique_ptr<DataPath> path;
     int tile_size = 0;
     RecordOrder record_order = RecordOrder::Index; ///< of frames that join from now on
@@ -105,7 +49,20 @@ struct RenderJob {
     std::unique_ptr<SlotRecorder> recorder;
     /// Set while more frames, or tiles of them, may join; notified when one has.
     std::unique_ptr<sc_core::sc_event> joined;
-    bool frames_join = false; ///< not tiles of the frames alone
+    /// Frames that follow those that are there. Each is made when a block first asks for it or for
+    /// a tile of it, which takes no simulated time: the run is that of a job that has had all
+    /// frames from the start. Those that have ended retire then.
+    FrameSource source;
+    /// Images and dates of frames that have retired stay, for a result.
+    bool keeps_results = true;
+    std::uint64_t background_tiles = 0; ///< that list no splat, of all frames so far
+    /// Messages of note_end() for each tile of a frame, and for the frame itself.
+    struct {
+        std::uint64_t of_tile = 1, of_frame = 0;
+    } ends;
+    /// Held while frames join and retire, and by a thread that looks at their splats beside the
+    /// simulation.
+    std::unique_ptr<TurnMutex> changes = std::make_unique<TurnMutex>();
 
     std::uint64_t pairs_before(std::uint32_t frame, std::uint32_t visible_rank) const {
         return pair_prefix[frame][visible_rank];
@@ -114,10 +71,10 @@ struct RenderJob {
     SlotPart* record_part(int width) const {
         return recorder == nullptr ? nullptr : &recorder->add_part(width);
     }
-    /// Whether there are more than that, views that are read together counted as one.
+    /// Whether there are more than that or will be, views that are read together counted as one.
     bool has_more_frames_than(int count) const {
         const std::size_t limit = count;
-        return frames.size() > limit * views;
+        return frames.size() + source.frames > limit * views;
     }
     /// Which of several like sorting units makes the list of a tile that has joined. They take
     /// turns, anew in each frame, so that a frame does not depend on those before it.
@@ -145,24 +102,44 @@ struct RenderJob {
     /// True if there is a frame / a tile of this number. If more may come, sleeps until it joins,
     /// and moves the process to that date.
     bool has_frame(Process& process, std::uint32_t frame) const {
-        return there(process, [this, frame] { return frame < frames.size(); });
+        return there(process, [this, frame] { return comes(frames, frame); });
     }
     bool has_tile(Process& process, std::size_t tile) const {
-        return there(process, [this, tile] { return tile < tiles.size(); });
+        return there(process, [this, tile] { return lists(tile); });
     }
+    /// True if there is a tile of this number now.
+    bool lists(std::size_t tile) const { return comes(tiles, tile); }
     /// True if there will never be a tile of this number.
-    bool over(std::size_t tile) const { return joined == nullptr && tile >= tiles.size(); }
+    bool over(std::size_t tile) const { return !lists(tile) && joined == nullptr; }
 
     /// Lists the tiles of a frame and loads its splats into the data path.
-    void add(const FrameWorkload& frame, const MemoryBases& base = {});
+    void add(FramePointer frame, const MemoryBases& base = {});
+    /// Adds the next frame of the source, with all of its views that are read together, in place of
+    /// those that have ended. False if there is none.
+    bool add_next();
+    /// A block that ends frames has done so with a tile of this one, or with the frame.
+    void note_end(std::uint32_t frame) { ends_of_frame_[frame]++; }
+    /// The first frame of which blocks keep dates.
+    std::size_t first_dated() const { return keeps_results ? 0 : frames.first(); }
     /// Gives up the tables, the tiles and the splats of frames that have been rendered, from the
     /// oldest on: those below `frame`, up to the first one with a list that a block is still busy
     /// with. A block may only look at them for a list of its own, or at the frame before its own.
-    /// The numbers of frames and tiles go on. The workload of a frame from frames.first() on is
-    /// still in use.
+    /// The numbers of frames and tiles go on.
     void retire_before(std::uint32_t frame);
 
 private:
+    void retire_ended();
+    /// Whether there is a frame or a tile of this number. That one is made when somebody asks for
+    /// it cannot be told from its having been there, so that the job is const to those who ask.
+    template <class List>
+    bool comes(const List& list, std::size_t number) const {
+        while (number >= list.size()) {
+            if (source.frames == 0 || !const_cast<RenderJob*>(this)->add_next()) {
+                return false;
+            }
+        }
+        return true;
+    }
     template <class There>
     bool there(Process& process, const There& exists) const {
         while (!exists()) {
@@ -174,10 +151,17 @@ private:
         }
         return true;
     }
+
+    std::size_t ended_ = 0; // frames of which nothing will be asked but by those after them
+    KeptList<std::uint64_t> ends_of_frame_; // messages of note_end()
 };
 
-/// Lists the tiles and loads the data path. All workloads must have the same tile size; splats are
-/// drawn as they are, whatever format they were projected in.
+/// A job without frames.
+RenderJob make_render_job(const DataPathOptions& options, int tile_size, int contexts,
+                          RecordOrder records = RecordOrder::Index,
+                          TileOrder tiles = TileOrder::Raster);
+/// Lists the tiles and loads the data path. All workloads must have the same tile size and outlive
+/// the job; splats are drawn as they are, whatever format they were projected in.
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
                           const DataPathOptions& options, int contexts,
                           RecordOrder records = RecordOrder::Index,

@@ -9,15 +9,19 @@ namespace degs {
 
 BackgroundWriter::BackgroundWriter(const sc_core::sc_module_name& name,
                                    const TrafficConfig& traffic, const Timebase& time,
-                                   const RenderJob& job, int cycles_per_write, bool reports,
-                                   bool instant)
+                                   RenderJob& job, int cycles_per_write, bool reports, bool instant)
     : sc_core::sc_module(name), listed("listed", instant ? 0 : 1),
       frame_done("frame_done", reports ? 1 : 0), frame_buffer("frame_buffer", time),
       traffic_(traffic), job_(job), cycles_per_write_(cycles_per_write), instant_(instant),
       self_(time) {
+    self_.show(*this);
+    if (instant && !reports) {
+        self_.finish();
+        return;
+    }
+    job_.ends.of_frame++;
     DEGS_HAS_PROCESS(BackgroundWriter);
     SC_THREAD(run);
-    self_.show(*this);
 }
 
 void BackgroundWriter::end_of_elaboration() {
@@ -36,7 +40,7 @@ void BackgroundWriter::run() {
         }
         const Completion done = write_frame(f);
         frames_written_.push_back(0);
-        frames_written_.drop_before(job_.frames.first());
+        frames_written_.drop_before(job_.first_dated());
         done.when_known([this, f](Cycle date) {
             frames_written_[f] = date; // before the end of the frame, so it is kept
             stats_.finished = std::max(stats_.finished, date);
@@ -44,6 +48,7 @@ void BackgroundWriter::run() {
         for (auto& port : frame_done) {
             port->put_at(self_, f, done);
         }
+        job_.note_end(f);
     }
     self_.finish();
 }
@@ -73,7 +78,6 @@ Completion BackgroundWriter::write_frame(std::uint32_t frame) {
 
 // Tiles [begin, end) of a row of tiles. Background is transparent black: zeros in any format.
 Completion BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, int end) {
-    stats_.tiles += end - begin;
     Completion done = self_.local();
     if (instant_) {
         return done;

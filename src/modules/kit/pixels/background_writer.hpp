@@ -18,7 +18,6 @@ namespace degs {
 class BackgroundWriter : public sc_core::sc_module {
 public:
     struct Stats {
-        std::uint64_t tiles = 0;
         Cycle finished = 0; ///< date at which the last background pixel was in memory
     };
 
@@ -28,9 +27,9 @@ public:
     sc_core::sc_vector<FifoPort<std::uint32_t>> frame_done;
     MemoryPort frame_buffer;
 
-    /// `instant`: nothing is written, see BuildOptions.
+    /// `instant`: nothing is written, see BuildOptions; unless it reports, it does not run.
     BackgroundWriter(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
-                     const Timebase& time, const RenderJob& job, int cycles_per_write, bool reports,
+                     const Timebase& time, RenderJob& job, int cycles_per_write, bool reports,
                      bool instant);
 
     const Stats& stats() const { return stats_; }
@@ -44,12 +43,12 @@ private:
     Completion write_run(std::uint32_t frame, int tile_row, int begin, int end);
 
     TrafficConfig traffic_;
-    const RenderJob& job_;
+    RenderJob& job_;
     Cycle cycles_per_write_;
     bool instant_;
     Process self_;
     Cycle next_write_ = 0;           // no write leaves before this
-    KeptList<Cycle> frames_written_; // of the frames that the job keeps
+    KeptList<Cycle> frames_written_; // from RenderJob::first_dated() on
     Stats stats_;
 };
 

@@ -153,7 +153,7 @@ void PixelBuffer::note_frames(std::size_t frames) {
     while (frames_written_.size() < frames) {
         frames_written_.push_back(0);
     }
-    frames_written_.drop_before(job_.frames.first());
+    frames_written_.drop_before(job_.first_dated());
 }
 
 // kNoTile: there are no more tiles.
@@ -193,6 +193,7 @@ void PixelBuffer::finish_tile(TileNumber number) {
     for (auto& port : frame_done) {
         port->put_at(self_, frame, oldest);
     }
+    job_.note_end(frame);
     stats_.tiles++;
     const TileNumber next = number + contexts_;
     if (share_.granted || !job_.over(next)) {

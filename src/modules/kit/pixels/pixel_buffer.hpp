@@ -127,7 +127,7 @@ private:
     std::vector<Completion> in_flight_; // ring of completion dates of the latest tile writes
     std::vector<PixelValue> pixels_;    // of the row being read out
     std::vector<unsigned char> bytes_;  // of the row, as frame-buffer pixels
-    KeptList<Cycle> frames_written_;    // of the frames that the job keeps
+    KeptList<Cycle> frames_written_;    // from RenderJob::first_dated() on
     Stats stats_;
 };
 

@@ -191,7 +191,7 @@ FrameWorkload two_tiles(int left) {
 TEST(SortingUnit, KeptListsAreMergedWithNewKeys) {
     UnitBench bench(two_tiles(30));
     const FrameWorkload second = two_tiles(40);
-    bench.job.add(second);
+    bench.job.add(borrowed(second));
     ListChanges changes(bench.job, true);
     SortingUnit::Config config;
     config.count = 1;

@@ -31,8 +31,8 @@ FrameWorkload lists_of(const std::vector<std::vector<std::uint32_t>>& lists, std
 RenderJob job_of(const std::vector<const FrameWorkload*>& frames,
                  TileOrder order = TileOrder::Raster) {
     RenderJob job;
-    job.frames = KeptList(frames);
     for (std::uint32_t f = 0; f < frames.size(); ++f) {
+        job.frames.push_back(borrowed(*frames[f]));
         std::uint64_t before = 0;
         for (const int t : listed_tiles(*frames[f], order)) {
             JobTile tile;

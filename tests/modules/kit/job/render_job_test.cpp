@@ -78,12 +78,12 @@ TEST(RenderJob, RetiredFramesLeaveRoomForOthers) {
     job.retire_before(1);
     EXPECT_EQ(job.frames.first(), 1U);
     EXPECT_EQ(job.tiles.first(), 3U);
-    job.add(frames[2]);
-    job.add(frames[3]);
+    job.add(borrowed(frames[2]));
+    job.add(borrowed(frames[3]));
     EXPECT_EQ(job.first_splat[2], 0U);
     EXPECT_EQ(job.first_splat[3], 5U); // it does not fit below frame 1
     EXPECT_EQ(job.frames.size(), 4U);
-    EXPECT_EQ(job.frames[3], &frames[3]);
+    EXPECT_EQ(job.frames[3].get(), &frames[3]);
     EXPECT_THAT(job.tiles_of_frame, ElementsAre(2U, 2U, 4U));
     EXPECT_EQ(job.pairs_before(3, 4), 4U);
     EXPECT_EQ(job.images[3].width, 64);
@@ -110,6 +110,85 @@ TEST(RenderJob, FramesRetireInTheirOrderAndAsFarAsTheyHaveBeenPassed) {
     EXPECT_EQ(job.frames.first(), 4U);
     job.retire_before(2); // they have
     EXPECT_EQ(job.frames.first(), 4U);
+}
+
+/// A job of DeGS's data path without frames, which come from `frames`.
+RenderJob job_from(const std::vector<const FrameWorkload*>& frames, std::uint32_t views = 1) {
+    RenderJob job = make_render_job(DataPathOptions(), 16, 1);
+    job.views = views;
+    job.source = source_of(frames);
+    return job;
+}
+
+// A tile that is asked for brings the frames up to it; nothing is made for one that is there.
+TEST(RenderJob, FramesAreMadeWhenTheyAreAskedFor) {
+    const FrameWorkload none = make_frame({}, 32, 16, 16), two = row_of(2), three = row_of(3);
+    RenderJob job = job_from({&two, &none, &three, &two});
+    EXPECT_TRUE(job.has_more_frames_than(3));
+    EXPECT_FALSE(job.has_more_frames_than(4));
+    EXPECT_EQ(job.frames.size(), 0U);
+    EXPECT_FALSE(job.over(1));
+    EXPECT_EQ(job.frames.size(), 1U);
+    EXPECT_TRUE(job.lists(2)); // the second frame lists nothing
+    EXPECT_EQ(job.frames.size(), 3U);
+    EXPECT_EQ(job.background_tiles, 2U);
+    EXPECT_FALSE(job.over(4));
+    EXPECT_EQ(job.frames.size(), 3U);
+    EXPECT_TRUE(job.over(7));
+    EXPECT_EQ(job.tiles.size(), 7U);
+    EXPECT_EQ(job.tiles.entries(), 7U);
+    EXPECT_EQ(job.tiles.pixels(), 7U * 16 * 16);
+    EXPECT_FALSE(job.add_next());
+}
+
+// Each frame ends with two messages for each tile and one of its own; the last one that has ended
+// stays for those after it.
+TEST(RenderJob, FramesThatHaveEndedRetireWhenOthersCome) {
+    const FrameWorkload one = row_of(1);
+    RenderJob job = job_from({&one, &one, &one, &one, &one});
+    job.ends.of_tile = 2;
+    job.ends.of_frame = 1;
+    const auto next = [&job](int messages, std::uint32_t frame) {
+        for (int i = 0; i < messages; ++i) {
+            job.note_end(frame);
+        }
+        EXPECT_TRUE(job.add_next());
+        pass_all(job);
+        return job.frames.first();
+    };
+    EXPECT_EQ(next(0, 0), 0U);
+    EXPECT_EQ(next(2, 0), 0U); // a message is missing
+    EXPECT_EQ(next(3, 1), 0U); // the one before has not ended
+    EXPECT_EQ(next(1, 0), 1U);
+    EXPECT_EQ(next(3, 2), 2U);
+    EXPECT_EQ(job.images.first(), 0U); // for the result
+    EXPECT_EQ(job.images.size(), 5U);
+}
+
+TEST(RenderJob, ViewsThatAreReadTogetherComeAndRetireTogether) {
+    const FrameWorkload one = row_of(1);
+    RenderJob job = job_from({&one, &one, &one, &one, &one, &one}, 2);
+    EXPECT_TRUE(job.has_more_frames_than(2));
+    EXPECT_FALSE(job.has_more_frames_than(3));
+    EXPECT_TRUE(job.add_next());
+    EXPECT_EQ(job.frames.size(), 2U);
+    EXPECT_TRUE(job.add_next());
+    pass_all(job);
+    for (const std::uint32_t frame : {0, 1, 2}) {
+        job.note_end(frame);
+    }
+    EXPECT_TRUE(job.add_next());
+    EXPECT_EQ(job.frames.size(), 6U);
+    EXPECT_EQ(job.frames.first(), 1U); // lists of view 3 are kept from it
+}
+
+TEST(RenderJob, ASourceMayEndEarly) {
+    const FrameWorkload one = row_of(1);
+    RenderJob job = job_from({&one, &one, &one});
+    job.source.next = [&one, left = 1]() mutable { return left-- == 0 ? nullptr : borrowed(one); };
+    EXPECT_TRUE(job.over(1));
+    EXPECT_EQ(job.frames.size(), 1U);
+    EXPECT_EQ(job.source.frames, 0U);
 }
 
 } // namespace
