@@ -123,7 +123,9 @@ def try_mutation(build, number):
         (folder / source).write_text(text)
     library = verilate(folder, block)
     objects = sorted((build / "tests/CMakeFiles/degs_rtl_tests.dir").rglob("*.o"))
-    linked = run(["g++", *map(str, objects), str(library), str(build / "tests/rtl/libdegs_rtl_models.a"),
+    # Models share objects, so that what is changed stands twice: the first one counts.
+    linked = run(["g++", "-Wl,--allow-multiple-definition", *map(str, objects), str(library),
+                  str(build / "tests/rtl/libdegs_rtl_models.a"),
                   *(str(build / f"libdegs_{one}.a") for one in LIBRARIES), "-lgmock", "-lgtest", "-lsystemc",
                   "-lyaml-cpp", "-lpthread", "-latomic",
                   "-o", str(folder / "test")])
