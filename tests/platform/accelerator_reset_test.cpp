@@ -155,8 +155,13 @@ INSTANTIATE_TEST_SUITE_P(All, SmallRunReset,
                                                              accelerator_kinds().size()),
                                             ::testing::Values(Bus::Annotated, Bus::Blocking,
                                                               Bus::FourPhases, Bus::Quantum),
-                                            ::testing::Values(Fidelity::Exact, Fidelity::Strict)),
+                                            ::testing::Values(Fidelity::Exact)),
                          design_name);
+INSTANTIATE_TEST_SUITE_P(
+    Strict, SmallRunReset,
+    ::testing::Combine(::testing::Range(std::size_t{0}, accelerator_kinds().size()),
+                       ::testing::Values(Bus::FourPhases), ::testing::Values(Fidelity::Strict)),
+    design_name);
 
 // What runs through several frames in hardware, such as whose turn it is among tile streams.
 TEST(SmallRunResetOfADesign, StreamsAndEnginesBeginAnew) {

@@ -225,7 +225,7 @@ TEST(HostileWorkloadFile, SaysWhatIsWrong) {
     EXPECT_THAT(changed("\"format\":\"fp64\"", "\"format\":\"fp65x\""),
                 HasSubstr("name of a number format"));
     EXPECT_THAT(changed("\"tile_mode\":\"exact\"", "\"tile_mode\":\"round\""),
-                HasSubstr("exact or reference"));
+                HasSubstr("exact or square or box or tight"));
     EXPECT_THAT(changed("\"projection\":0", "\"projection\":1"), HasSubstr("from 0 to 0"));
     EXPECT_THAT(changed("\"blocks\":[", "\"blocks\":[18446744073709551615,"),
                 HasSubstr("projections[0].blocks[0]"));

@@ -86,7 +86,8 @@ std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOpti
     if (kept.bytes != nullptr) {
         return std::make_unique<KeptDrawing>(job, options, kept.pixels, *kept.bytes);
     }
-    if (host_threads() > 1) {
+    // A platform keeps no results; its processes do not expect a thread of ours.
+    if (host_threads() > 1 && job.keeps_results) {
         try {
             return std::make_unique<DrawingThread>(job, options);
         } catch (const std::system_error&) {
