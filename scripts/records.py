@@ -108,8 +108,8 @@ def rows(out):
               f" | {areas} |", flush=True)
 
 
-JOINT = ("slicing.rows=tile", "slicing.interleave=2", "span.rows=pool", "pixel_buffer.release=bank",
-         "pipeline.span_ends=exact", "scheduler.termination=pixel")
+JOINT = ("pipeline.tiles=box", "slicing.rows=tile", "slicing.interleave=2", "span.rows=pool",
+         "pixel_buffer.release=bank", "pipeline.span_ends=exact", "scheduler.termination=pixel")
 
 
 def joint(out):
