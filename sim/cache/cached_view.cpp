@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/cache/cached_view.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -227,6 +229,7 @@ std::vector<FramePointer> CachedView::later_frame(const AcceleratorConfig& confi
 
 void CachedView::share_colours(std::vector<FramePointer>& views, std::size_t frame) {
     std::vector<FrameWorkload> shared;
+    shared.reserve(views.size());
     for (FramePointer& view : views) {
         shared.push_back(*view);
     }
@@ -244,10 +247,9 @@ FrameSource CachedView::frames(const AcceleratorConfig& config,
                                const std::vector<FrameWorkload>& first) {
     const auto take = [this, &config, &first](std::size_t frame) {
         std::vector<FramePointer> views;
-        for (const FrameWorkload& view : first) {
-            views.push_back(borrowed(view));
-        }
-        if (frame != 0) {
+        if (frame == 0) {
+            std::transform(first.begin(), first.end(), std::back_inserter(views), borrowed);
+        } else {
             views = later_frame(config, frame);
         }
         if (views_ > 1 && config.view_sharing() == ViewSharing::Colour) {

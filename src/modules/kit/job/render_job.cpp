@@ -32,19 +32,19 @@ std::vector<std::uint64_t> prefix_of_pairs(const FrameWorkload& frame) {
 
 } // namespace
 
-void RenderJob::add(FramePointer added, const MemoryBases& base) {
+void RenderJob::add(FramePointer frame, const MemoryBases& base) {
     const std::lock_guard<TurnMutex> lock(*changes);
     const auto f = static_cast<std::uint32_t>(frames.size());
-    const FrameWorkload& frame = *added;
-    frames.push_back(std::move(added));
+    const FrameWorkload& work = *frame;
+    frames.push_back(std::move(frame));
     bases.push_back(base);
-    first_splat.push_back(path->add_frame(frame));
-    pair_prefix.push_back(prefix_of_pairs(frame));
-    places.emplace_back(frame, record_order);
-    images.push_back(f < drawn_images ? Image(frame.camera.width, frame.camera.height) : Image());
+    first_splat.push_back(path->add_frame(work));
+    pair_prefix.push_back(prefix_of_pairs(work));
+    places.emplace_back(work, record_order);
+    images.push_back(f < drawn_images ? Image(work.camera.width, work.camera.height) : Image());
     ends_of_frame_.push_back(0);
-    const std::vector<int> listed = listed_tiles(frame, tile_order);
-    const TileGrid grid = frame.grid();
+    const std::vector<int> listed = listed_tiles(work, tile_order);
+    const TileGrid grid = work.grid();
     background_tiles += grid.shown_tiles() - listed.size();
     std::uint64_t before = 0;
     for (const int t : listed) {
@@ -59,9 +59,9 @@ void RenderJob::add(FramePointer added, const MemoryBases& base) {
         tile.cut_top = drawn.y0 - whole.y0;
         tile.cut_right = whole.x1 - drawn.x1;
         tile.cut_bottom = whole.y1 - drawn.y1;
-        tile.first = frame.tile_begin[t];
-        tile.count = frame.tile_begin[t + 1] - tile.first;
-        tile.list = frame.tile_splats.data() + tile.first;
+        tile.first = work.tile_begin[t];
+        tile.count = work.tile_begin[t + 1] - tile.first;
+        tile.list = work.tile_splats.data() + tile.first;
         tile.first_splat = first_splat[f];
         tile.before = before;
         before += tile.count;
