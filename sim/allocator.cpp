@@ -7,7 +7,7 @@
 /// Without huge pages the kernel maps tens of thousands of small ones, which takes a third of the
 /// processor time of a short run. The environment variable MALLOC_CONF has the last word.
 extern "C" const char* const malloc_conf = "thp:always";
-// Of jemalloc, whose header declares the options above as a variable.
+// This is of jemalloc, whose header declares the options above as a variable.
 extern "C" int mallctl(const char* name, void* old, std::size_t* old_size, void* value,
                        std::size_t size);
 

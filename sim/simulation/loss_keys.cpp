@@ -89,11 +89,22 @@ bool LossKeys::allows(const std::vector<std::string>& settings) const {
     }
 }
 
+std::vector<std::string> LossKeys::movable() const {
+    std::vector<std::string> keys;
+    for (const LossKey& knob : keys_) {
+        if (value(knob.key) != nullptr && (*knob.linked == 0 || value(knob.linked) != nullptr) &&
+            allows(knob)) {
+            keys.push_back(knob.name());
+        }
+    }
+    return keys;
+}
+
 std::vector<std::string> LossKeys::of(const std::string& cause) const {
     std::vector<std::string> keys;
     for (const LossKey& knob : keys_) {
         const std::string key = knob.name();
-        if (cause == knob.cause && can_move(knob) && !is_idle(key) && allows(knob)) {
+        if (cause == knob.cause && can_move(knob) && is_movable(key) && !is_idle(key)) {
             keys.push_back(knob.way == Way::Raise   ? "raise " + key
                            : knob.way == Way::Lower ? "lower " + key
                                                     : key + "=" + knob.limit);

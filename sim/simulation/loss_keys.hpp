@@ -19,6 +19,10 @@ class LossKeys {
 public:
     explicit LossKeys(const RunResult& result);
 
+    /// Keys of which the design allows a step, for RunResult::movable_keys; needs its configuration
+    /// alone.
+    std::vector<std::string> movable() const;
+
     /// "raise KEY", "lower KEY and KEY" or "KEY=VALUE", the one that moves most on close-ups first.
     /// A key is missing if the design does not have it, if it is at its limit or idle because of
     /// other keys or in this run, or if the design allows no step of it.
@@ -29,10 +33,11 @@ public:
 private:
     const nlohmann::ordered_json* value(const std::string& key) const;
     bool can_move(const LossKey& knob) const;
-    bool is_idle(const std::string& key) const {
-        const std::vector<std::string>& idle = result_.accelerator.idle_keys;
-        return std::find(idle.begin(), idle.end(), key) != idle.end();
+    static bool has(const std::vector<std::string>& keys, const std::string& key) {
+        return std::find(keys.begin(), keys.end(), key) != keys.end();
     }
+    bool is_movable(const std::string& key) const { return has(result_.movable_keys, key); }
+    bool is_idle(const std::string& key) const { return has(result_.accelerator.idle_keys, key); }
     bool allows(const LossKey& knob) const;
     bool allows(const std::vector<std::string>& settings) const;
 

@@ -11,6 +11,7 @@
 #include "scene/cameras/eyes.hpp"
 #include "sim/process/reserve.hpp"
 #include "sim/process/stopwatch.hpp"
+#include "sim/simulation/loss_keys.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "splat/frame/shared_colours.hpp"
 
@@ -256,6 +257,8 @@ void put_first_frame(const RunRequest& request, const std::vector<FramePointer>&
                      RunResult& result) {
     const FrameWorkload& first = *views.front();
     result.config = request.config;
+    // Designs that are refused throw, behind a simulation from a stack that sanitizers do not know.
+    result.movable_keys = LossKeys(result).movable();
     result.camera = first.camera;
     result.workload = facts_of(first);
     result.warnings = request.config.warnings;

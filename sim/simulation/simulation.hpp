@@ -75,6 +75,7 @@ struct RunResult {
     RunConfig config;
     WorkloadFacts workload; ///< of that view
     AcceleratorResult accelerator;
+    std::vector<std::string> movable_keys;   ///< see LossKeys::movable; asked before the simulation
     std::vector<std::string> warnings;       ///< sentences; see warnings.hpp
     std::optional<ImageError> error;         ///< of that view against the reference
     std::vector<ViewFacts> views;            ///< of the first frame, if it has several

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/report/losses.hpp"
+#include "sim/simulation/loss_keys.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -235,6 +236,7 @@ RunResult waiting_for_pixels(std::size_t views, std::size_t frames, double gb_pe
     run.streams.resize(1);
     run.streams[0].name = "frame_buffer";
     run.streams[0].bytes_written = frames * views * result.workload.pixels * 4;
+    result.movable_keys = LossKeys(result).movable();
     return result;
 }
 

@@ -19,6 +19,7 @@ std::optional<bool> is_named(const LossKey& knob, const std::string& value) {
     } catch (const InputError&) {
         return {};
     }
+    result.movable_keys = {knob.name()};
     const std::string words = (knob.way == LossKey::Way::Raise ? "raise " : "lower ") + knob.name();
     const std::vector<std::string> keys = LossKeys(result).of(knob.cause);
     return std::find(keys.begin(), keys.end(), words) != keys.end();
