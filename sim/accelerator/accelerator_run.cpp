@@ -36,7 +36,7 @@ public:
         job_.source = {frames_.frames, [this] { return take(); }};
     }
 
-    /// When the kernel has stopped. Throws what the source has thrown.
+    /// Is called when the kernel has stopped; throws what the source has thrown.
     void end() {
         if (failure_ != nullptr) {
             std::rethrow_exception(failure_);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kWorthKeeping = 0.005; // s
 
-/// Does what may need a deep stack, which a process of a simulation does not have.
+/// Runs `work` on a thread of its own, because the process of a simulation has a small stack.
 void on_own_thread(const std::function<void()>& work) {
     std::exception_ptr failure;
     const auto caught = [&] {

@@ -10,6 +10,7 @@
 #include "sim/cache/binary.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/cache/entry_checks.hpp"
+#include "sim/simulation/frame_kind.hpp"
 #include "sim/simulation/warnings.hpp"
 
 namespace degs::sim {
@@ -97,15 +98,14 @@ std::string frame_key(const std::string& scene, const Camera& camera, int tile_s
     return out.bytes;
 }
 
-/// With whole ellipses the image does not depend on the size of tiles, unless some are hidden.
 std::string reference_key(const std::string& scene, const FrameWorkload& frame) {
     BinaryWriter out;
     out.put(std::string("reference"));
     out.put(scene);
     put_view(out, frame.camera, frame.projection, ProjectionNumbers().name());
-    const bool any = lists_whole_ellipse(frame.tile_mode) && frame.camera.hole.empty();
-    out.put(any ? TileMode::Exact : frame.tile_mode);
-    out.put(any ? 0 : frame.tile_size);
+    const auto [size, mode] = image_tiles(frame);
+    out.put(mode);
+    out.put(size);
     return out.bytes;
 }
 

@@ -15,11 +15,9 @@
 
 namespace degs::sim {
 
-void SharedView::render_references(TileMode mode) {
+void SharedView::render_references() {
     const FrameWorkload& frame = frames.front();
-    const bool any = lists_whole_ellipse(mode);
-    const decltype(reference_kind) kind{any ? 0 : frame.tile_size, any ? TileMode::Exact : mode,
-                                        rule_kind(frame.projection)};
+    const decltype(reference_kind) kind{image_tiles(frame), rule_kind(frame.projection)};
     if (!references.empty() && reference_kind == kind) {
         return;
     }

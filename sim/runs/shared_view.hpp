@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/shared_bytes.hpp"
@@ -26,10 +26,9 @@ struct SharedView {
     std::unique_ptr<SharedBytes> kept; ///< what its simulations keep for each other, if several
     std::vector<Reference> references; ///< of the first frame's views, of `reference_kind`
     /// What the image depends on beside the view: side and mode of tiles, and the rules.
-    std::tuple<int, TileMode, RuleKind> reference_kind;
+    std::pair<std::pair<int, TileMode>, RuleKind> reference_kind;
 
-    /// With exact tiles the image does not depend on their size.
-    void render_references(TileMode mode);
+    void render_references();
 
     /// Gives the views of each frame the colours that they share.
     void share_colours();

@@ -218,7 +218,7 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
                         : make_workloads(*shared.cloud, shared.scene.traits, shared.cameras, wish,
                                          shared.workload_s);
     if (request_.reference && !request_.sampling) {
-        shared.render_references(wish.tile_mode());
+        shared.render_references();
     }
     if (shares_colours(wish, shared.views)) { // the references have the colours of each view
         shared.share_colours();

@@ -9,6 +9,11 @@ RuleKind rule_kind(const ProjectionOptions& options) {
             options.sigma.beta, options.sigma.kappa};
 }
 
+std::pair<int, TileMode> image_tiles(const FrameWorkload& frame) {
+    const bool any = lists_whole_ellipse(frame.tile_mode) && frame.camera.hole.empty();
+    return any ? std::pair(0, TileMode::Exact) : std::pair(frame.tile_size, frame.tile_mode);
+}
+
 FrameKind frame_kind(const AcceleratorConfig& config, const SceneTraits& traits) {
     const ProjectionOptions rules = projection_of(config.data_path(), traits.antialiased);
     return {rule_kind(rules), rules.numbers.is_reference() ? "" : rules.numbers.name(),

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "sim/simulation/simulation.hpp"
 
@@ -13,6 +14,10 @@ namespace degs::sim {
 using RuleKind = std::tuple<SplatOrder, bool, double, double, double, ProjectionRule, LensRule,
                             double, double, double>;
 RuleKind rule_kind(const ProjectionOptions& options);
+
+/// Side and mode of the tiles of a frame as far as its image depends on them: 0 and Exact where
+/// lists are of whole ellipses and no tile is hidden.
+std::pair<int, TileMode> image_tiles(const FrameWorkload& frame);
 
 /// The rules, the formats of the projection (empty for those of the reference, whose frames the
 /// reference's and come first), the side of a tile and the tile mode.

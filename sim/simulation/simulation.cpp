@@ -219,7 +219,7 @@ public:
     FrameSource source() {
         return {all_, [this] { return take(); }};
     }
-    // When all have been taken.
+    /// Is asked when all have been taken.
     FrameChanges changes() const { return changes_.changes(); }
     const WorstNearPlane& near_plane() const { return near_plane_; }
     /// Host time of all threads in which they were made.

@@ -45,8 +45,8 @@ struct Text {
 /// The value is the index of the name.
 struct Choice {
     const std::vector<const char*>& names;
-    const char* doc =
-        ""; ///< of the key; "name: what it means; ..." helps whoever knows another word
+    /// Description of the key; in "name: meaning; ..." a word of a meaning suggests its name.
+    const char* doc = "";
     std::optional<int> read(const ConfigNode& node) const;
     std::string values() const;
     std::string allowed(const ConfigNode& node) const;

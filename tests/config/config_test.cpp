@@ -144,7 +144,7 @@ TEST(ConfigChoice, GoesByNameAndSuggestsTheNearest) {
                                            "row-major, morton, hilbert.");
 }
 
-// Whoever calls a choice by what it means is told its name, unless several mean it.
+// A word that only one description has suggests the choice that is described.
 TEST(ConfigChoice, IsFoundByAWordOfItsDescription) {
     const std::string sentence = "a.yaml:1: key 'order' is 'jumps', but must be one of row-major, "
                                  "morton, hilbert (did you mean 'hilbert'?).";

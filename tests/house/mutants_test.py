@@ -115,6 +115,29 @@ class Tables(unittest.TestCase):
             failed = MUTANTS.failed_test(skipped + line.format(7, "Frames", verdict))
             self.assertEqual((failed[1], failed[2]), ("platform/Frames", verdict))
 
+    def test_the_nearest_and_cheapest_tests_run_first(self):
+        (self.root / "tests/sim/goals").mkdir(parents=True)
+        (self.root / "tests/sim/goals/fronts_test.cpp").write_text("TEST_P(Fronts, Are) {\n", encoding="utf-8")
+        tests = object.__new__(MUTANTS.Tests)
+        seconds = {"sim/Judgement": 9, "sim/All/Fronts": 5, "sim/Dear": 4, "sim/Cheap": 0.5, "sim/Fair": 0.75,
+                   "dram/Judgement": 0.1}
+        tests.tree, tests.suites, tests.seconds, tests.numbers = self.root, {}, seconds, dict.fromkeys(seconds, 1)
+        mutant = MUTANTS.Mutant("sim", "sim/goals/judgement.cpp", "wrong", "1", "$", "")
+        self.assertEqual(tests.groups(mutant), [["sim/Judgement"], ["sim/All/Fronts"], ["sim/Cheap", "sim/Fair"],
+                                                ["sim/Dear"], ["dram/Judgement"]])
+
+    def test_a_mutant_that_lives_long_is_left(self):
+        class Slow:
+            def groups(self, mutant):
+                return [["a"], ["b"]]
+
+            def run(self, folder, names, mutant):
+                return "b" if names == ["b"] else None
+
+        mutant = MUTANTS.Mutant("sim", "sim/goals/judgement.cpp", "wrong", "1", "$", "")
+        self.assertEqual(MUTANTS.killer(Slow(), self.root, mutant, 60)[:2], (True, "b"))
+        self.assertEqual(MUTANTS.killer(Slow(), self.root, mutant, -1)[:2], (False, None))
+
     def test_a_row_belongs_to_one_form_of_an_entry(self):
         first = MUTANTS.Mutant("base", "src/base/a.cpp", "wrong", "1", "$", "")
         others = [MUTANTS.Mutant("base", "src/base/a.cpp", "wrong", *rest)

@@ -143,7 +143,7 @@ def try_mutation(build, number):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, default=ROOT / "build/release")
-    parser.add_argument("--only", type=int, action="append", help="number of a change; all if none is named")
+    parser.add_argument("--only", type=int, nargs="+", help="number of a change; all if none is named")
     options = parser.parse_args()
     print("| | change | block | | first difference |\n|--:|---|---|---|---|")
     numbers = [one - 1 for one in options.only] if options.only else range(len(MUTATIONS))

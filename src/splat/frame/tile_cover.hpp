@@ -30,7 +30,7 @@ enum class TileMode {
 
 /// Names of the modes, in this order.
 const std::vector<const char*>& tile_mode_names();
-/// What each means, "name: ...; name: ...", for whoever chooses.
+/// The description of a key that chooses among them, "name: meaning; ...".
 extern const char* const kTileModesDoc;
 
 /// Whether every tile with a pixel of the ellipse is listed, so that images do not depend on lists.

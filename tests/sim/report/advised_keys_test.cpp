@@ -102,14 +102,12 @@ std::string key_of(const std::string& advice) {
                                       : advice.substr(space + 1);
 }
 
-class AdvisedKey : public ::testing::TestWithParam<AdvisedKeys> {};
-
-TEST_P(AdvisedKey, IsNamedAndLowersTheLoss) {
+void expect_named_and_lower(const AdvisedKeys& advised) {
     constexpr double kLeast = 0.02; // of the frame
-    const AdvisedView& view = GetParam().view;
+    const AdvisedView& view = advised.view;
     const auto before = report_with(view);
     ASSERT_TRUE(before);
-    for (const auto& [cause, key] : GetParam().entries) {
+    for (const auto& [cause, key] : advised.entries) {
         std::string failures = "not named";
         for (const auto& loss : (*before)["losses"]) {
             if (loss["share"] < kLeast || !can_have(loss["reason"], cause)) {
@@ -125,20 +123,42 @@ TEST_P(AdvisedKey, IsNamedAndLowersTheLoss) {
     }
 }
 
-/// Every ninth first, so that the ten of the core suite are of all accelerators.
-std::vector<AdvisedKeys> spread_situations() {
+/// Every ninth situation, which are of all accelerators, or the others.
+std::vector<AdvisedKeys> situations(bool core) {
     constexpr std::size_t kStep = 9;
     const std::vector<AdvisedKeys> all = advised_keys();
-    std::vector<AdvisedKeys> spread;
-    for (std::size_t first = 0; first < kStep; ++first) {
-        for (std::size_t i = first; i < all.size(); i += kStep) {
-            spread.push_back(all[i]);
+    std::vector<AdvisedKeys> chosen;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if ((i % kStep == 0) == core) {
+            chosen.push_back(all[i]);
         }
     }
-    return spread;
+    return chosen;
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, AdvisedKey, ::testing::ValuesIn(spread_situations()));
+std::string situation_name(const ::testing::TestParamInfo<AdvisedKeys>& situation) {
+    std::string name = situation.param.view.design;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name + "_" + std::to_string(situation.index);
+}
+
+class AdvisedKey : public ::testing::TestWithParam<AdvisedKeys> {};
+
+TEST_P(AdvisedKey, IsNamedAndLowersTheLoss) {
+    expect_named_and_lower(GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Situations, AdvisedKey, ::testing::ValuesIn(situations(true)),
+                         situation_name);
+
+class LongAdvisedKey : public ::testing::TestWithParam<AdvisedKeys> {};
+
+TEST_P(LongAdvisedKey, IsNamedAndLowersTheLoss) {
+    expect_named_and_lower(GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Situations, LongAdvisedKey, ::testing::ValuesIn(situations(false)),
+                         situation_name);
 
 } // namespace
 } // namespace degs::sim_test

@@ -77,7 +77,7 @@ TEST(TileListNames, HoldForEstimates) {
     }
 }
 
-// Whoever knows a mode by the code that it comes from is told its name.
+// The former name of the square is a word of its description, and so it suggests the new one.
 TEST(TileListNames, AreFoundByTheirDescriptions) {
     expect_mistake(degs({"run", config("gbu-64"), "--scene", "synthetic:single", "--set",
                          "pipeline.tiles=reference"}),
