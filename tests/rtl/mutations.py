@@ -127,7 +127,7 @@ def try_mutation(build, number):
     linked = run(["g++", "-Wl,--allow-multiple-definition", *map(str, objects), str(library),
                   str(build / "tests/rtl/libdegs_rtl_models.a"),
                   *(str(build / f"libdegs_{one}.a") for one in LIBRARIES), "-lgmock", "-lgtest", "-lsystemc",
-                  "-lyaml-cpp", "-lpthread", "-latomic",
+                  "-lyaml-cpp", "-ljemalloc", "-lpthread", "-latomic",
                   "-o", str(folder / "test")])
     if linked.returncode != 0:
         sys.exit(f"mutations.py: the test cannot be linked:\n{linked.stderr[-2000:]}")
