@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The headers of the cache pull in SystemC, whose library asks for this function. Nothing here
-// simulates.
+// The cache comes with the program, and so with SystemC, whose library asks for this function.
+// Nothing here simulates.
 #include <cstdlib>
 
 #include <systemc>
