@@ -90,10 +90,8 @@ if(TARGET degs_program)
     degs_all_test(sim/TableOfACameraPath COMMAND ${scripts}/regime.py --quick --path ${here}/random/cameras.json
                   EXPECT "interior . degs-64 . [0-9.]+ / [0-9.]+ / [0-9.]+ .*garden . gscore-64 . [0-9.]+ / [0-9.]+ / [0-9.]+ . [0-9.]+ / "
                   ENVIRONMENT ${program})
-    # Other publications beside ours, on small scenes.
-    degs_all_test(sim/TablesOfOthers COST 30 COMMAND ${scripts}/others.py --quick
-                  EXPECT "16 cores.*13.7 .9.8 to 17.8.*figure 16.*as published, 4 clusters.*ORANGE with the same keys over GSCore, 2k . 1.67 . [0-9.]+ . [0-9.]+ . [0-9.]+ "
-                  ENVIRONMENT ${program})
+    # Every measured table, made of tiny views.
+    degs_all_test(docs/tables COST 30 COMMAND /usr/bin/python3 ${scripts}/measure.py --quick ENVIRONMENT ${program})
     # Advice for losses, on one small view.
     degs_all_test(sim/AdviceOfOneView COMMAND ${scripts}/advice.py ${configs}/gscore-64.yaml ${configs}/gcc-64.yaml
                   --scenes synthetic:object,gaussians=2000 --width 240 --jobs 1 --strict

@@ -1,0 +1,195 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""measure.py [TABLE...]: measures tables, CSV files and pictures of the documents, and writes them where they stand.
+
+    measure.py                  everything; goes on where it was stopped
+    measure.py others-times     one table, or several; 'others*' is a pattern, docs/others.md all of a page
+    measure.py --list           names, places and what is measured already
+    measure.py --check          is a table stale? Tries the cheapest point of each
+    measure.py --quick          makes all with tiny views and writes nothing: the declarations work
+
+Tables are declared in scripts/tables. Results of single points are kept in out/measure and shared between tables;
+docs/tables.json records what each table depended on. The program is DEGS_PROGRAM or build/release/sim/degs."""
+import argparse
+import concurrent.futures
+import fnmatch
+import sys
+import time
+
+from measuring import points, records
+from measuring.store import Store
+from measuring.tables import answered, declared_tables, flat, placed_marks
+
+
+class Progress:
+    """A line on stderr: points done, and how long the others will take."""
+
+    def __init__(self, seconds, jobs):
+        self.seconds, self.jobs, self.done, self.spent, self.shown = dict(seconds), jobs, 0, 0.0, 0.0
+        self.all = len(seconds)
+
+    def finished(self, point, seconds):
+        """Longer or shorter points than expected are so for what is left, too."""
+        self.spent += seconds
+        self.done += 1
+        expected = self.seconds.pop(point)
+        self.shown += expected
+        if self.done % 10 == 0 or sys.stderr.isatty() or self.done == self.all:
+            left = sum(self.seconds.values()) * (self.spent / self.shown if self.shown else 1) / self.jobs
+            print(f"{self.done} of {self.all} points done · about {left / 60:.0f} min left",
+                  end="\r" if sys.stderr.isatty() and self.done < self.all else "\n", file=sys.stderr, flush=True)
+
+
+class Making:
+    """Tables while they are made: each goes on when all points that it asked for have results."""
+
+    def __init__(self, tables, store, jobs, quick):
+        self.store, self.jobs, self.quick = store, jobs, quick
+        self.results, self.failed, self.wrong, self.written = {}, {}, [], 0
+        self.open = {}
+        for name, table in tables.items():
+            made = table.make()
+            self.open[name] = (table, made, next(made), [])
+
+    def small(self, point):
+        return point.quick() if self.quick else point
+
+    def wanted(self):
+        """Points without a result, in the order of the tables."""
+        asked = [self.small(point) for _, _, asked, _ in self.open.values() for point in flat(asked)]
+        return [point for point in dict.fromkeys(asked) if point not in self.results and point not in self.failed]
+
+    def load(self, todo):
+        """Takes what was measured before; returns what was not."""
+        left = []
+        for point in todo:
+            try:
+                kept = self.store.get(point)
+            except Exception as problem:  # pylint: disable=broad-except
+                self.failed[point] = str(problem)
+                continue
+            if kept:
+                self.results[point] = kept
+            else:
+                left.append(point)
+        return left
+
+    def take(self, point, made):
+        """A result, or why there is none."""
+        try:
+            values, seconds = made()
+        except Exception as problem:  # pylint: disable=broad-except
+            self.failed[point] = str(problem)
+            return 0.0
+        self.results[point] = (values, seconds)
+        self.store.put(point, values, seconds)
+        return seconds
+
+    def measure(self, todo):
+        """All points of a round. Those whose times count, and studies, come last and alone."""
+        alone = [point for point in todo if point.runs or point.kind in ("sweep", "command")]
+        progress = Progress(self.store.seconds(todo), self.jobs)
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            running = {pool.submit(points.measured, point): point for point in todo if point not in alone}
+            try:
+                for future in concurrent.futures.as_completed(running):
+                    progress.finished(running[future], self.take(running[future], future.result))
+                    self.advance()
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
+        for point in alone:
+            jobs = 1 if point.runs else self.jobs
+            progress.finished(point, jobs * self.take(point, lambda each=point, n=jobs: points.measured(each, n)))
+            self.advance()
+
+    def advance(self):
+        """Tables that have all that they asked for go on; finished ones are written."""
+        for name, (table, made, asked, before) in list(self.open.items()):
+            small = {point: self.small(point) for point in flat(asked)}
+            reasons = [self.failed[each] for each in small.values() if each in self.failed]
+            if reasons:
+                self.wrong.append(f"{name}: {reasons[0]}")
+                del self.open[name]
+            elif all(each in self.results for each in small.values()):
+                results = {point: points.shown(point, self.results[each][0]) for point, each in small.items()}
+                try:
+                    self.open[name] = (table, made, made.send(answered(asked, results)), [*before, *small])
+                except StopIteration as stop:
+                    del self.open[name]
+                    self.finish(table, [*before, *small], stop.value)
+
+    def finish(self, table, asked, text):
+        self.written += 1
+        if self.quick:
+            return
+        table.write(text)
+        records.add(table, table.points(), {point: self.results[point] for point in asked})
+        print(f"{table.place}: {table.name}", flush=True)
+
+    def all(self):
+        """Rounds, until no table asks for more."""
+        while self.open:
+            self.advance()
+            left = self.load(self.wanted())
+            self.advance()
+            if left:
+                self.measure(left)
+        return self.wrong
+
+
+def chosen(tables, names):
+    if not names:
+        return tables
+    picked = {}
+    for wanted in names:
+        found = {name: table for name, table in tables.items()
+                 if fnmatch.fnmatchcase(name, wanted) or table.place == wanted}
+        if not found:
+            sys.exit(f"measure.py: no table and no page is named {wanted}; measure.py --list has all.")
+        picked |= found
+    return picked
+
+
+def check(tables, jobs):
+    began = time.monotonic()
+    stale, untried, unmeasured = records.check(tables, jobs)
+    stale += [f"{page}: there is no table {name} in scripts/tables" for page, name in placed_marks()
+              if name not in tables or tables[name].place != page]
+    for line in untried:
+        print(f"not tried: {line}")
+    if unmeasured:
+        print(f"not measured by this command yet: {', '.join(unmeasured)}")
+    print(f"{len(tables) - len(unmeasured)} tables and {len(records.read()['probes'])} probes in "
+          f"{time.monotonic() - began:.0f} s")
+    if stale:
+        sys.exit("\n".join(stale))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("tables", nargs="*", metavar="TABLE")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--jobs", type=int, default=2, help="points at a time (default: 2)")
+    parser.add_argument("--folder", default=str(points.ROOT / "out/measure"), help="results (default: out/measure)")
+    options = parser.parse_args()
+    tables = chosen(declared_tables(), options.tables)
+    if options.check:
+        check(tables, options.jobs)
+        return
+    if options.list:
+        kept = records.read()["tables"]
+        for name, table in tables.items():
+            print(f"{name:32} {table.place:28} {'measured' if name in kept else 'not measured'}")
+        return
+    making = Making(tables, Store(options.folder), options.jobs, options.quick)
+    wrong = making.all()
+    print(f"{making.written} of {len(tables)} tables made")
+    if wrong:
+        sys.exit("\n".join(wrong))
+
+
+if __name__ == "__main__":
+    main()

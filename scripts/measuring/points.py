@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Points: single calls of the program whose results tables share.
+
+A point says what is simulated. Two tables that ask for the same point share its result. Scenes are names of folders of
+DEGS_SCENES (default ../shared/scenes), or of DEGS_SCENES_LARGE behind `large:`, or synthetic:NAME,...."""
+import csv
+import dataclasses
+import functools
+import hashlib
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+from degs.process import call, program  # noqa: E402
+from degs.report import Report  # noqa: E402
+
+SCENES = pathlib.Path(os.environ.get("DEGS_SCENES", ROOT / "../shared/scenes"))
+LARGE = pathlib.Path(os.environ.get("DEGS_SCENES_LARGE", ROOT / "../shared/scenes-large"))
+# Of a report: what a probe keeps, if it is there.
+PROBED = ("timing.cycles", "timing.throughput_fps", "timing.preprocessing_cycles", "slots.useful", "slots.boundary",
+          "slots.terminated", "slots.conflict", "slots.starved", "slots.blocked", "dram.bytes_read",
+          "dram.bytes_written", "dram.row_hit_rate", "energy.nj_per_frame", "area.mm2", "workload.tile_pairs",
+          "workload.fragments", "image.psnr_db")
+# Of a row of a study, and of a view.
+PROBED_ROW = ("cycles", "preprocessing_cycles", "slots.utilization", "slots.conflict", "dram.bytes_read",
+              "dram.bytes_written", "energy.nj_per_frame", "area_mm2")
+PROBED_VIEW = ("visible", "tile_pairs", "fragments_per_pixel", "fragments_per_splat", "terminated_share")
+
+
+class Missing(Exception):
+    """A scene that is not there."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """One call: `kind` is run, view, cost, sweep or command. `source` is a design of configs, a study of configs/studies
+    or the words of a command; `runs` is how often it runs, one after the other and alone, where its times count."""
+
+    kind: str
+    source: str
+    scene: str = ""
+    options: tuple = ()
+    keys: tuple = ()
+    runs: int = 0
+
+    def words(self):
+        """The command line behind the program, without a place for its results."""
+        scene = ["--scene", scene_file(self.scene)] if self.scene else []
+        keys = [word for key in self.keys for word in ("--set", key)]
+        if self.kind == "run":
+            reference = [] if "--reference" in self.options else ["--no-reference"]
+            options = [word for word in self.options if word != "--reference"]
+            return ["run", design_file(self.source), *scene, *options, *keys, *reference]
+        if self.kind == "view":
+            return ["scene", "info", *scene[1:], *self.options, "--json"]
+        if self.kind == "cost":
+            return ["config", design_file(self.source), "--cost", "--format", "json", *keys]
+        if self.kind == "sweep":
+            return ["sweep", str(ROOT / f"configs/studies/{self.source}.yaml"), *scene, *self.options, *keys]
+        return [*self.source.split(), *self.options]
+
+    def designs(self):
+        """Designs and changed keys whose values the result depends on."""
+        if self.kind in ("run", "cost"):
+            return [(design_file(self.source), self.keys)]
+        if self.kind == "sweep":
+            return [(file, ()) for file in study_designs(self.source)]
+        return [(word, ()) for word in self.options if word.endswith(".yaml")]
+
+    def key(self):
+        """What names the point in files."""
+        return hashlib.sha256(json.dumps(dataclasses.astuple(self)).encode()).hexdigest()[:20]
+
+    def quick(self):
+        """A small point in its place, which shows that a table can be made."""
+        sized = ("--resolution", "--width", "--height", "--camera", "--frames", "--crop")
+        options, skip = [], False
+        for word in self.options:
+            if not skip and word not in sized:
+                options.append(word)
+            skip = word in sized
+        more = {"run": ("--width", "160", "--camera", "1"), "view": ("--width", "160", "--camera", "1"),
+                "sweep": ("--quick",)}.get(self.kind, ())
+        frames = ("--frames", "3") if "--frames" in self.options and self.kind == "run" else ()
+        scene = "synthetic:object,gaussians=500" if self.scene and self.kind != "sweep" else ""
+        return dataclasses.replace(self, scene=scene, options=(*options, *more, *frames), runs=min(self.runs, 1))
+
+
+def run(design, scene, options="", *keys, runs=0):
+    """A run of a design; without --reference among the options, no image is compared. Its result is a degs.Report."""
+    return Point("run", design, scene, tuple(options.split()), keys, runs)
+
+
+def view(scene, options=""):
+    """What is to be drawn in a view: `degs scene info --json`."""
+    return Point("view", "", scene, tuple(options.split()))
+
+
+def cost(design, *keys):
+    """Areas and powers of a design: `degs config --cost`."""
+    return Point("cost", design, keys=keys)
+
+
+def sweep(study, scene="", options="", *keys):
+    """All points of a study: the rows of its results.csv."""
+    return Point("sweep", study, scene, tuple(options.split()), keys)
+
+
+def design_file(name):
+    return name if name.endswith(".yaml") else str(ROOT / f"configs/{name}.yaml")
+
+
+def scene_file(name):
+    if name.startswith("synthetic:"):
+        return name
+    folder = LARGE / name[len("large:"):] if name.startswith("large:") else SCENES / name
+    file = folder if name.startswith("large:") else folder / "scene.ply"
+    if not file.exists():
+        raise Missing(f"there is no scene {file}")
+    return str(file)
+
+
+@functools.lru_cache(maxsize=None)
+def study_designs(name):
+    """Files that the designs of a study include."""
+    file = ROOT / f"configs/studies/{name}.yaml"
+    names = [line.split(":", 1)[1].strip() for line in file.read_text(encoding="utf-8").splitlines()
+             if line.strip(" -").startswith("include:")]
+    return [str((file.parent / name).resolve()) for name in names if name.endswith(".yaml")]
+
+
+@functools.lru_cache(maxsize=None)
+def content(file):
+    """Digest of a file, or of the files of a folder."""
+    path, digest = pathlib.Path(file), hashlib.blake2b(digest_size=16)
+    for each in sorted(path.rglob("*")) if path.is_dir() else [path]:
+        if each.is_file():
+            with each.open("rb") as stream:
+                while block := stream.read(1 << 22):
+                    digest.update(block)
+    return digest.hexdigest()
+
+
+@functools.lru_cache(maxsize=None)
+def values_of(file, keys):
+    """All keys of a design as the program resolves them."""
+    return call(["config", file, *[word for key in keys for word in ("--set", key)], "--format", "yaml"], warn=False)
+
+
+def depends_on(point):
+    """Texts of all that the result depends on but the program: values of keys, the scene, and the words."""
+    if point.scene and not point.scene.startswith("synthetic:"):
+        yield content(scene_file(point.scene))
+    if point.kind == "sweep":
+        yield (ROOT / f"configs/studies/{point.source}.yaml").read_text(encoding="utf-8")
+    for design in point.designs():
+        yield values_of(*design)
+    yield json.dumps([point.kind, point.scene, point.options, point.keys if point.kind == "sweep" else (), point.runs])
+
+
+def measured(point, jobs=1):
+    """Calls the program: the values of the result, and the seconds that it took."""
+    began = time.monotonic()
+    values = once(point, jobs)
+    for _ in range(point.runs - 1):
+        again = once(point, jobs)["host"]
+        values["host"] = {name: min(value, again[name]) if isinstance(value, float) else value
+                          for name, value in values["host"].items()}
+    return values, time.monotonic() - began
+
+
+def once(point, jobs):
+    if point.kind in ("view", "cost"):
+        return json.loads(call(point.words(), warn=False))
+    if point.kind == "command":
+        return {"text": subprocess.run([str(ROOT / point.words()[0]), *point.words()[1:]], check=True, text=True,
+                                       stdout=subprocess.PIPE).stdout}
+    with tempfile.TemporaryDirectory(prefix="degs-measure-") as folder:
+        if point.kind == "sweep":
+            call([*point.words(), "--jobs", str(jobs), "--out", folder], progress=False, warn=False)
+            return {"rows": rows_of(pathlib.Path(folder, "results.csv")),
+                    "seconds": [float(row["host.sim_s"]) for row in rows_of(pathlib.Path(folder, "host.csv"))]}
+        call([*point.words(), "--out", folder], warn=False)
+        name = "analytic.json" if "analytic" in point.options else "report.json"
+        return json.loads(pathlib.Path(folder, name).read_text(encoding="utf-8"))
+
+
+def rows_of(path):
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def shown(point, values):
+    """The result as a table sees it."""
+    if point.kind in ("run", "view", "cost"):
+        return Report(values)
+    return values["rows"] if point.kind == "sweep" else values["text"]
+
+
+def probe_of(point, values, seconds):
+    """(seconds, what to run, what it gives) of the cheapest part of a point; None if it has none."""
+    if point.kind == "sweep":
+        if not values["rows"]:
+            return None
+        cheapest = min(range(len(values["rows"])), key=lambda index: values["seconds"][index])
+        row = values["rows"][cheapest]
+        return values["seconds"][cheapest], {**fields(point), "row": row["point"]}, numbers(row, PROBED_ROW)
+    if point.kind == "command" or "analytic" in point.options:
+        return None
+    return seconds / max(1, point.runs), fields(point), probed(point, values)
+
+
+def fields(point):
+    """A point as JSON has it, without what it does not say."""
+    return {name: value for name, value in dataclasses.asdict(dataclasses.replace(point, runs=0)).items() if value}
+
+
+def probed(point, values):
+    report = Report(values["view"] if point.kind == "view" else values)
+    names = PROBED_VIEW if point.kind == "view" else ("area.mm2", "area.power_w") if point.kind == "cost" else PROBED
+    return numbers({name: report[name] for name in names if name in report}, names)
+
+
+def numbers(values, names):
+    """Numbers with six digits: more may depend on the compiler."""
+    return {name: float(f"{float(values[name]):.6g}") for name in names
+            if values.get(name) not in (None, "") and abs(float(values[name])) < float("inf")}
+
+
+def probed_again(probe):
+    """What a probe gives now."""
+    words = {name: tuple(value) if isinstance(value, list) else value for name, value in probe.items() if name != "row"}
+    point = Point(**{"source": "", **words})
+    if "row" not in probe:
+        return probed(point, once(point, 1))
+    with tempfile.TemporaryDirectory(prefix="degs-measure-") as folder:
+        count = call([*point.words(), "--list"], warn=False).count("\n")
+        call([*point.words(), "--shard", f"{probe['row']}/{count}", "--out", folder], progress=False, warn=False)
+        subprocess.run([program(), *point.words(), "--collect", "--out", folder], check=False,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        rows = [row for row in rows_of(pathlib.Path(folder, "results.csv")) if row["point"] == probe["row"]]
+    return numbers(rows[0], PROBED_ROW) if rows else {}

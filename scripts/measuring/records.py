@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Records of measured tables, in docs/tables.json: what each depended on, its text, and its probe.
+
+A table is stale when a value of a key, a scene, a study or the list of its points differs, when its text was changed by
+hand, or when its probe, the cheapest of its points, gives other numbers than it did."""
+import concurrent.futures
+import hashlib
+import json
+
+from . import points
+from .points import ROOT
+
+FILE = ROOT / "docs/tables.json"
+
+
+def digest(texts):
+    return hashlib.sha256("\n".join(sorted(set(texts))).encode()).hexdigest()[:16]
+
+
+def dependence(asked):
+    """Digest of all that the points of a table depend on but the program."""
+    return digest(text for point in asked for text in points.depends_on(point))
+
+
+def read():
+    return json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {"probes": [], "tables": {}}
+
+
+def write(kept):
+    """Probes that no table has go; each entry is a line."""
+    used = {entry["probe"] for entry in kept["tables"].values()}
+    lines = ['{"probes": [']
+    lines += [",\n".join(json.dumps(probe) for probe in kept["probes"] if probe["name"] in used)]
+    lines += ['], "tables": {']
+    lines += [",\n".join(f"{json.dumps(name)}: {json.dumps(entry)}" for name, entry in sorted(kept["tables"].items()))]
+    FILE.write_text("\n".join([*lines, "}}"]) + "\n", encoding="utf-8")
+
+
+def name_of(probe):
+    return digest([json.dumps(probe, sort_keys=True)])[:10]
+
+
+def add(table, asked, results):
+    """Keeps the record of a table that was written; `results` are values and seconds of its points. A probe that
+    another table has is taken if it costs at most a second more than the cheapest."""
+    kept = read()
+    found = [probe for probe in (points.probe_of(point, *results[point]) for point in asked) if probe]
+    name = ""
+    if found:
+        cheapest = min(seconds for seconds, *_ in found)
+        names = {probe["name"] for probe in kept["probes"]}
+        cost, probe, values = min(found, key=lambda each: (each[0] > cheapest + 1 or name_of(each[1]) not in names,
+                                                           each[0]))
+        name = name_of(probe)
+        kept["probes"] = [each for each in kept["probes"] if each["name"] != name]
+        kept["probes"].append({"name": name, "seconds": round(cost, 2), "point": probe, "values": values})
+        kept["probes"].sort(key=lambda each: each["name"])
+    kept["tables"][table.name] = {"place": table.place, "depends": dependence(asked), "text": digest([table.text()]),
+                                  "probe": name}
+    write(kept)
+
+
+def differences(probe):
+    """Sentences on the numbers of a probe that are not what they were; `Missing` if its scene is not there."""
+    now = points.probed_again(probe["point"])
+    return [f"{name} was {value:g} and is {now[name]:g}" if name in now else f"{name} was {value:g} and is gone"
+            for name, value in probe["values"].items() if now.get(name) != value]
+
+
+def check(tables, jobs):
+    """(what is stale, what could not be tried, what has no record): sentences."""
+    kept, stale, untried = read(), [], []
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        depends = {name: pool.submit(lambda table: dependence(table.points()), table)
+                   for name, table in tables.items() if name in kept["tables"]}
+        probes = {probe["name"]: pool.submit(differences, probe) for probe in kept["probes"]}
+        for name, entry in kept["tables"].items():
+            if name not in tables:
+                stale.append(f"docs/tables.json: there is no table {name} any more")
+                continue
+            try:
+                reasons = probes[entry["probe"]].result() if entry["probe"] else []
+                if depends[name].result() != entry["depends"]:
+                    reasons = ["its points, the values of their keys or their scenes are not what they were", *reasons]
+            except points.Missing as missing:
+                untried.append(f"{name}: {missing}")
+                reasons = []
+            if tables[name].place != entry["place"] or digest([tables[name].text() or ""]) != entry["text"]:
+                reasons = ["its text is not what was measured", *reasons]
+            if reasons:
+                stale.append(f"{entry['place']}: the table {name} is stale: {'; '.join(reasons[:3])}. "
+                             f"Measure it anew: scripts/measure.py {name}")
+    return stale, untried, [name for name in tables if name not in kept["tables"]]
