@@ -228,9 +228,10 @@ def probed(point, values):
 
 
 def numbers(values, names):
-    """Numbers with six digits: more may depend on the compiler."""
-    return {name: float(f"{float(values[name]):.6g}") for name in names
-            if values.get(name) not in (None, "") and abs(float(values[name])) < float("inf")}
+    """Counts as they are, and other numbers with six digits: more may depend on the compiler."""
+    found = {name: float(values[name]) for name in names if values.get(name) not in (None, "")}
+    return {name: int(value) if value.is_integer() else float(f"{value:.6g}")
+            for name, value in found.items() if abs(value) < float("inf")}
 
 
 def probed_again(probe):

@@ -63,7 +63,7 @@ def add(table, asked, results):
 def differences(probe):
     """Sentences on the numbers of a probe that are not what they were; `Missing` if its scene is not there."""
     now = points.probed_again(probe["point"])
-    return [f"{name} was {value:g} and is {now[name]:g}" if name in now else f"{name} was {value:g} and is gone"
+    return [f"{name} was {value} and is {now[name]}" if name in now else f"{name} was {value} and is gone"
             for name, value in probe["values"].items() if now.get(name) != value]
 
 
