@@ -100,10 +100,6 @@ if(TARGET degs_program)
     degs_all_test(sim/TablesOfReadings COMMAND ${scripts}/ranges.sh --quick
                   EXPECT "GCC . 1 . [0-9.]+ . [0-9.]+ . [0-9.]+ .*comparisons with all reports"
                   ENVIRONMENT ${program} SCENES=synthetic:object,gaussians=200 "KINDS=speed frames")
-    # Every study of the paper's figures in its quick form; each value must select one point of each
-    # view.
-    degs_all_test(docs/figures COST 60 COMMAND /usr/bin/python3 ${scripts}/figures.py run --quick ENVIRONMENT ${program})
-    degs_all_test(docs/claims COST 20 COMMAND /usr/bin/python3 ${scripts}/claims.py run --quick ENVIRONMENT ${program})
 endif()
 
 if(DEGS_INSTALL)

@@ -15,6 +15,8 @@ import sys
 import tempfile
 import time
 
+import yaml
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 from degs.process import call, program  # noqa: E402
@@ -22,6 +24,7 @@ from degs.report import Report  # noqa: E402
 
 SCENES = pathlib.Path(os.environ.get("DEGS_SCENES", ROOT / "../shared/scenes"))
 LARGE = pathlib.Path(os.environ.get("DEGS_SCENES_LARGE", ROOT / "../shared/scenes-large"))
+HEIGHTS = {"720p": 720, "1080p": 1080, "2k": 1440, "4k": 2160, "8k": 4320}
 # Of a report: what a probe keeps, if it is there.
 PROBED = ("timing.cycles", "timing.throughput_fps", "timing.preprocessing_cycles", "slots.useful", "slots.boundary",
           "slots.terminated", "slots.conflict", "slots.starved", "slots.blocked", "dram.bytes_read",
@@ -78,18 +81,25 @@ class Point:
         return hashlib.sha256(json.dumps(dataclasses.astuple(self)).encode()).hexdigest()[:20]
 
     def quick(self):
-        """A small point in its place, which shows that a table can be made."""
+        """A small point in its place, which shows that a table can be made. A study keeps its cameras and the heights
+        of its images, which tables ask for."""
         sized = ("--resolution", "--width", "--height", "--camera", "--frames", "--crop")
+        if self.kind == "sweep":
+            sized = ("--resolution", "--frames")
         options, skip = [], False
         for word in self.options:
             if not skip and word not in sized:
                 options.append(word)
             skip = word in sized
-        more = {"run": ("--width", "160", "--camera", "1"), "view": ("--width", "160", "--camera", "1"),
-                "sweep": ("--quick",)}.get(self.kind, ())
-        frames = ("--frames", "3") if "--frames" in self.options and self.kind == "run" else ()
-        scene = "synthetic:object,gaussians=500" if self.scene and self.kind != "sweep" else ""
-        return dataclasses.replace(self, scene=scene, options=(*options, *more, *frames), runs=min(self.runs, 1))
+        if self.kind in ("run", "view"):
+            options += ["--width", "160", "--camera", "1"]
+        if self.kind == "sweep":
+            named = dict(zip(self.options, self.options[1:])).get("--resolution", study_resolutions(self.source))
+            options += ["--resolution", ",".join(f"32x{HEIGHTS[name]}" for name in named.split(","))]
+        if "--frames" in self.options and self.kind != "view":
+            options += ["--frames", "3"]
+        scene = "synthetic:object,gaussians=500" if self.scene else ""
+        return dataclasses.replace(self, scene=scene, options=tuple(options), runs=min(self.runs, 1))
 
 
 def run(design, scene, options="", *keys, runs=0):
@@ -133,6 +143,13 @@ def study_designs(name):
     names = [line.split(":", 1)[1].strip() for line in file.read_text(encoding="utf-8").splitlines()
              if line.strip(" -").startswith("include:")]
     return [str((file.parent / name).resolve()) for name in names if name.endswith(".yaml")]
+
+
+def study_resolutions(name):
+    """Names of the resolutions of a study, as an option has them."""
+    study = yaml.safe_load((ROOT / f"configs/studies/{name}.yaml").read_text(encoding="utf-8"))
+    named = study.get("resolutions", "720p")
+    return named if isinstance(named, str) else ",".join(named)
 
 
 @functools.lru_cache(maxsize=None)

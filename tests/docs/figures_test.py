@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""figures_test.py: scripts/figures.py on results made up here, with one planted mistake after the other; and that
+"""figures_test.py: scripts/tables/figures.py on results made up here, with one planted mistake after the other; and that
 docs/published.csv and docs/measured.csv belong together. Needs no program."""
 
 import csv
-import re
 import sys
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-import figures  # noqa: E402
+from tables import figures  # noqa: E402
+from measuring.points import HEIGHTS, rows_of, study_resolutions  # noqa: E402
+from measuring.tables import placed_marks  # noqa: E402
 
 
 def results():
@@ -43,12 +44,6 @@ class Selecting(unittest.TestCase):
         with self.assertRaisesRegex(figures.Mistake, "in some of its views"):
             figures.measured(results()[1:], figures.Value("x", "design=a", "cycles"))
 
-    def test_heights(self):
-        figures.check_heights(figures.Value("scaling", "design=degs-16 height=1440", "cycles"))
-        for point in ("design=degs-16", "design=degs-16 height=1080"):
-            with self.assertRaisesRegex(figures.Mistake, "none or several"):
-                figures.check_heights(figures.Value("scaling", point, "cycles"))
-
 
 class Differences(unittest.TestCase):
     def test_words(self):
@@ -77,21 +72,23 @@ class Files(unittest.TestCase):
                 else:
                     self.assertTrue(row["note"], f"{place}: says nowhere why no study stands beside it")
 
-    def test_resolutions(self):
+    def test_a_point_names_one_resolution_of_its_study(self):
         for value in figures.all_values():
-            figures.check_heights(value)
+            heights = {str(HEIGHTS[name]) for name in study_resolutions(value.study).split(",")}
+            for point in filter(None, (value.point, value.over)):
+                named = figures.conditions(point).get("height")
+                self.assertTrue(named in heights or not named and len(heights) == 1, (value.study, point))
 
     def test_measured_values_are_those_of_the_tables(self):
-        wanted, stored = {value.key() for value in figures.all_values()}, set(figures.stored())
+        wanted = {value.key() for value in figures.all_values()}
+        stored = {tuple(row[key] for key in figures.KEYS) for row in rows_of(ROOT / "docs/measured.csv")}
         self.assertFalse(sorted(wanted - stored)[:3], "docs/measured.csv lacks values of the tables")
         self.assertFalse(sorted(stored - wanted)[:3], "docs/measured.csv has values that no table shows")
 
     def test_every_figure_with_a_study_is_on_the_page(self):
-        page = (ROOT / "docs/reproduction.md").read_text()
-        shown = [f"table '{row['figure']}'" for row in figures.published() if row["study"]]
-        for command in [*shown, *(f"curve {name}" for name in figures.CURVES)]:
-            # A page may show a part of a curve, by a filter behind the command.
-            self.assertRegex(page, rf"<!-- output of: scripts/figures\.py {re.escape(command)}( \| grep [^\n]*)? -->")
+        marks = {name for page, name in placed_marks() if page == figures.PAGE}
+        wanted = {figures.name_of(row["figure"]) for row in figures.published() if row["study"]}
+        self.assertLessEqual(wanted | {f"curve-{name}" for name in figures.CURVES}, marks)
 
 
 unittest.main()

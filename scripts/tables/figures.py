@@ -1,34 +1,22 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The paper's figures as studies: runs them, and puts the published values beside ours.
-
-    figures.py run [FOLDER] [--quick] [--jobs N] [--scene FILE]... [--only STUDY]... [--keep]
-    figures.py table FIGURE              Markdown table of published values beside ours
-    figures.py curve NAME                Markdown table of our values along the axes of a study
+"""The paper's figures as studies: tables of docs/reproduction.md with published values beside ours, and curves.
 
 docs/published.csv has the published values, and says where each stands and which point of which study stands beside it.
-`run` sweeps the studies into FOLDER (a temporary one by default), works out every value, and with --keep writes
-docs/measured.csv, from which `table` and `curve` print the tables of docs/reproduction.md. The scene is flowers of
-DEGS_SCENES, unless --scene names others. The program is DEGS_PROGRAM, or build/release/sim/degs. --quick
-runs the small views of the studies, and only shows that every value can be worked out.
-"""
-import argparse
+The scene is flowers, with the cameras and resolutions of each study; docs/measured.csv has every value."""
 import ast
 import csv
+import functools
+import io
 import math
 import operator
-import os
 import re
-import subprocess
-import sys
-import tempfile
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+from measuring.points import ROOT, rows_of, sweep
+from measuring.tables import markdown, table
+
+PAGE = "docs/reproduction.md"
 PUBLISHED = ROOT / "docs/published.csv"
-MEASURED = ROOT / "docs/measured.csv"
-PROGRAM = Path(os.environ.get("DEGS_PROGRAM", ROOT / "build/release/sim/degs")).absolute()
-SCENES = ("flowers",)
+SCENE = "flowers"
 CAMERAS = ("2", "1")
 HEIGHTS = {"720p": "720", "1080p": "1080", "2K": "1440", "4K": "2160", "8K": "4320"}
 KEYS = ("study", "point", "over", "measure")  # of a value in docs/measured.csv
@@ -37,6 +25,7 @@ SIZES = ("16", "64", "256", "1024")
 BUFFERS = {"gaussian_buffer.bytes": 73728, "span_buffer.bytes": 2048, "packing.bytes": 32768,
            "feature_buffer.bytes": 8192, "pixel_buffer.bytes": 16384}  # of Table I
 BANKS = {16: (2, 4, 8, 16), 64: (4, 8, 16, 32), 256: (8, 16, 32, 64), 1024: (32, 64)}  # that can be built
+SHOWN = {"redundancy": "-(16|1024)$", "pressure": "2K", "banks": "-(64|1024),", "buffers": "× 1/2$"}  # rows of curves
 IN_SPACE, IN_TIME = "1 - slots.useful - slots.terminated", "slots.terminated"
 
 
@@ -128,10 +117,10 @@ def conditions(text):
     return dict(part.split("=", 1) for part in text.split())
 
 
+@functools.lru_cache(maxsize=None)
 def published():
     """The rows of docs/published.csv."""
-    with PUBLISHED.open(newline="") as file:
-        return list(csv.DictReader(file))
+    return rows_of(PUBLISHED)
 
 
 def value_of(row):
@@ -165,9 +154,9 @@ def evaluated(measure, row):
     return number(ast.parse(measure, mode="eval").body)
 
 
-def selected(rows, study, text, leave_out=()):
+def selected(rows, study, text):
     """The row of each view that has all that `text` demands; more or fewer than one is a mistake."""
-    wanted = {key: value for key, value in conditions(text).items() if key not in leave_out}
+    wanted = conditions(text)
     found = {}
     for row in rows:
         missing = wanted.keys() - row.keys()
@@ -183,12 +172,12 @@ def selected(rows, study, text, leave_out=()):
     return found
 
 
-def measured(rows, value, leave_out=()):
+def measured(rows, value):
     """Mean over the scenes for each camera: geometric, but arithmetic for differences, which may be below zero."""
-    points = selected(rows, value.study, value.point, leave_out)
+    points = selected(rows, value.study, value.point)
     numbers = {view: evaluated(value.measure, row) for view, row in points.items()}
     if value.over:
-        others = selected(rows, value.study, value.over, leave_out)
+        others = selected(rows, value.study, value.over)
         numbers = {view: number / evaluated(value.measure, others[view]) for view, number in numbers.items()}
     means = {}
     for camera in sorted({camera for _, camera in numbers}):
@@ -197,67 +186,6 @@ def measured(rows, value, leave_out=()):
         means[camera] = (sum(of_camera) / len(of_camera) if arithmetic else
                          math.exp(sum(map(math.log, of_camera)) / len(of_camera)))
     return means
-
-
-def measured_of(ours, value, camera):
-    """The stored number of a value."""
-    text = ours.get(value.key(), {}).get(f"camera {camera}")
-    if not text:
-        raise Mistake(f"docs/measured.csv lacks {value.measure} at '{value.point}' of {value.study}, camera {camera}; "
-                      f"run `scripts/figures.py run --only {value.study} --keep`.")
-    return float(text)
-
-
-def rows_of(path):
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def check_heights(value):
-    """--quick has other resolutions than the study, so this is what says that a height selects one of its views."""
-    text = (ROOT / f"configs/studies/{value.study}.yaml").read_text()
-    names = re.search(r"^resolutions: \[?([^\]\n]*)", text, re.MULTILINE)[1].split(", ")
-    heights = [HEIGHTS[name.upper().replace("P", "p")] for name in names]
-    for point in filter(None, (value.point, value.over)):
-        if conditions(point).get("height", heights[0] if len(heights) == 1 else "none") not in heights:
-            raise Mistake(f"'{point}' selects none or several of the resolutions of {value.study}: {', '.join(names)}.")
-
-
-def stored():
-    """docs/measured.csv by the keys of its values."""
-    return {tuple(row[key] for key in KEYS): row for row in rows_of(MEASURED)} if MEASURED.exists() else {}
-
-
-def run(options):
-    if not os.access(PROGRAM, os.X_OK):
-        raise Mistake(f"there is no program {PROGRAM}; build it, or name another in DEGS_PROGRAM.")
-    scenes = options.scene or [str(Path(os.environ.get("DEGS_SCENES", ROOT / "../shared/scenes")) / name / "scene.ply")
-                               for name in SCENES]
-    views = ["--quick"] if options.quick else [word for scene in scenes for word in ("--scene", scene)]
-    values = all_values()
-    if unknown := set(options.only) - {value.study for value in values}:
-        raise Mistake(f"no value is measured by the study '{min(unknown)}'.")
-    kept = stored() if options.keep else {}
-    for value in values:
-        check_heights(value)
-    for study in dict.fromkeys(value.study for value in values):
-        if options.only and study not in options.only:
-            continue
-        folder = options.folder / study
-        subprocess.run([PROGRAM, "sweep", ROOT / f"configs/studies/{study}.yaml", *views, "--no-reference",
-                        "--jobs", str(options.jobs), "--out", folder], check=True, stdout=subprocess.DEVNULL)
-        rows = rows_of(folder / "results.csv")
-        for value in (each for each in values if each.study == study):
-            means = measured(rows, value, ("height",) if options.quick else ())
-            kept[value.key()] = dict(zip(KEYS, value.key())) | {
-                f"camera {camera}": f"{means[camera]:.5g}" for camera in CAMERAS if camera in means}
-        print(f"{study}: {len(rows)} points", flush=True)
-    wanted = [value.key() for value in values]
-    path = MEASURED if options.keep else options.folder / "measured.csv"
-    with path.open("w", newline="") as file:
-        writer = csv.DictWriter(file, [*KEYS, *(f"camera {camera}" for camera in CAMERAS)], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(kept[key] for key in sorted(wanted) if key in kept)
 
 
 def shown(number, unit):
@@ -286,76 +214,62 @@ def as_published(text, unit):
     return words + (unit if unit == "×" else f" {unit}")
 
 
-def markdown(head, rows):
-    """Prints a table whose first column is text and whose others are numbers."""
-    rule = ["---", *["--:"] * (len(head) - 1)]
-    print("\n".join(f"| {' | '.join(row)} |" for row in [head, rule, *rows]))
+def of_studies(values):
+    """The studies that values are of, as points."""
+    return {value.study: sweep(value.study, SCENE) for value in values}
 
 
-def table(figure):
-    rows, ours = [row for row in published() if row["figure"] == figure and row["study"]], stored()
-    if not rows:
-        raise Mistake(f"docs/published.csv has no '{figure}' with a study.")
+def means_of(found, value):
+    """Means of a value by camera, from the results of the studies."""
+    return measured(found[value.study], value)
+
+
+def figure_table(figure):
+    """Published values beside ours."""
+    rows = [row for row in published() if row["figure"] == figure and row["study"]]
+    found = yield of_studies(map(value_of, rows))
     lines = []
     for row in rows:
+        means = means_of(found, value_of(row))
         lines.append([row["quantity"], as_published(row["value"], row["unit"])])
         for camera in CAMERAS:
-            number = measured_of(ours, value_of(row), camera)
-            lines[-1] += [shown(number, row["unit"]), difference(number, row["value"], row["unit"])]
+            lines[-1] += [shown(means[camera], row["unit"]), difference(means[camera], row["value"], row["unit"])]
     head = ["what", "published"]
-    markdown(head + [word for camera in CAMERAS for word in (f"camera {camera}", "difference")], lines)
+    return markdown(head + [word for camera in CAMERAS for word in (f"camera {camera}", "difference")], lines)
 
 
-def curve(name):
-    if name not in CURVES:
-        raise Mistake(f"there is no curve '{name}'; there are {', '.join(CURVES)}.")
-    chart, ours, lines = CURVES[name], stored(), []
+def curve_table(name):
+    """Our values along the axes of a study, the rows of it that the page shows."""
+    chart = CURVES[name]
+    found = yield of_studies([chart.value(row, each) for row in chart.rows for each in chart.columns])
+    lines = []
     for row in chart.rows:
-        values = [chart.value(row, each) for each in chart.columns]
-        lines.append([row[0], *(" · ".join(shown(measured_of(ours, value, camera), chart.unit) for camera in CAMERAS)
-                                for value in values)])
-    markdown([chart.corner] + [each[0] for each in chart.columns], lines)
+        if re.search(SHOWN.get(name, ""), row[0]):
+            means = [means_of(found, chart.value(row, each)) for each in chart.columns]
+            lines.append([row[0], *(" · ".join(shown(each[camera], chart.unit) for camera in CAMERAS)
+                                    for each in means)])
+    return markdown([chart.corner] + [each[0] for each in chart.columns], lines)
 
 
-def carry_out(command, options):
-    """Calls a command; a mistake or a failed program ends the script with one sentence."""
-    script = Path(sys.argv[0]).name
-    try:
-        command(options)
-    except Mistake as mistake:
-        sys.exit(f"{script}: {mistake}")
-    except subprocess.CalledProcessError as failed:
-        sys.exit(f"{script}: the program ended with exit code {failed.returncode}.")
+def name_of(figure):
+    """figure-14a of Fig. 14a."""
+    return figure.lower().replace("fig.", "figure").replace("sec.", "section").replace(" ", "-")
 
 
-def chosen(options):
-    """Does what the command line names."""
-    if options.command != "run":
-        (table if options.command == "table" else curve)(options.name)
-        return
-    with tempfile.TemporaryDirectory(prefix="degs-figures-") as temporary:
-        options.folder = options.folder or Path(temporary)
-        options.folder.mkdir(parents=True, exist_ok=True)
-        run(options)
+for each_figure in dict.fromkeys(row["figure"] for row in published() if row["study"]):
+    table(PAGE, name_of(each_figure), each_figure)(figure_table)
+for each_curve in CURVES:
+    table(PAGE, f"curve-{each_curve}", each_curve)(curve_table)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
-    commands = parser.add_subparsers(dest="command", required=True)
-    command = commands.add_parser("run")
-    command.add_argument("folder", type=Path, nargs="?")
-    command.add_argument("--quick", action="store_true")
-    command.add_argument("--keep", action="store_true")
-    command.add_argument("--jobs", type=int, default=1)
-    command.add_argument("--scene", action="append", default=[])
-    command.add_argument("--only", action="append", default=[])
-    commands.add_parser("table").add_argument("name")
-    commands.add_parser("curve").add_argument("name")
-    options = parser.parse_args()
-    if options.command == "run" and options.quick and options.keep:
-        sys.exit("figures.py: --keep needs the full studies; --quick is for a trial.")
-    carry_out(chosen, options)
-
-
-if __name__ == "__main__":
-    main()
+@table("docs/measured.csv", "measured-values")
+def measured_values():
+    """Every value of all tables and of all curves."""
+    values = all_values()
+    found = yield of_studies(values)
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([*KEYS, *(f"camera {camera}" for camera in CAMERAS)])
+    writer.writerows(sorted([*value.key(), *(f"{means_of(found, value)[camera]:.5g}" for camera in CAMERAS)]
+                            for value in values))
+    return text.getvalue()

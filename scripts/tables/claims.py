@@ -1,33 +1,23 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The sentences of the paper that can fail, tried on our scenes, with a verdict on each.
-
-    claims.py run [FOLDER] [--jobs N]    sweeps what is needed into FOLDER (default out/claims); writes docs/claims.csv
-    claims.py run --quick                small views of the studies, to try them; writes nothing
-    claims.py table                      Markdown table of claims, points tried and verdicts, from docs/claims.csv
-    claims.py failing [TEXT]             every point at which the claims with TEXT in their name do not hold
 
 The claims are the rows 'Claims' of docs/published.csv. A claim `holds` if it holds at every point tried. Otherwise its
 verdict is `our scene differs` if it holds at every point of the views in its range, and there are some; else it is
 `does not hold`. The range is, for what the workload of the array decides, views with at least FRAGMENTS fragments per
-visible splat at 1080p, and for frame rates and kinds of scenes, scenes with the numbers of Gaussians of the paper's.
-`run` needs the trained scenes of DEGS_SCENES, and goes on with what FOLDER has."""
-import argparse
+visible splat at 1080p, and for frame rates and kinds of scenes, scenes with the numbers of Gaussians of the paper's."""
 import collections
 import csv
-import json
-import os
-import subprocess
-import tempfile
-from pathlib import Path
+import io
 
-import figures
-from figures import HEIGHTS, PROGRAM, ROOT, SIZES, Mistake
+from measuring.points import sweep, view
+from measuring.tables import markdown, table
 
-MEASURED = ROOT / "docs/claims.csv"
-SCENES_AT = Path(os.environ.get("DEGS_SCENES", ROOT / "../shared/scenes"))
-SCENES = {"flowers": "", "garden-crop": "", "garden": "synthetic:garden", "interior": "synthetic:interior",
-          "landscape": "synthetic:landscape,gaussians=3000000"}  # without text: a file of DEGS_SCENES
+from tables import figures
+from tables.figures import HEIGHTS, SIZES, Mistake
+
+PAGE = "docs/reproduction.md"
+SCENES = {"flowers": "flowers", "garden-crop": "garden-crop", "garden": "synthetic:garden",
+          "interior": "synthetic:interior", "landscape": "synthetic:landscape,gaussians=3000000"}
 CAMERA = "2"
 # Study, scene, resolutions, and frames of a path (three give a throughput).
 RUNS = [("claims", "flowers", "720p,1080p,2k,4k", 3), ("scaling", "flowers", "720p,1080p,2k,4k", 1),
@@ -66,7 +56,7 @@ class Data:
         """A number, or a mistake if it was not measured."""
         row = self.rows.get((study, scene, height, design, axis))
         if row is None or not row[measure]:
-            raise Mistake(f"docs/claims.csv lacks {measure} of {design} in {scene} at {height}; run scripts/claims.py.")
+            raise Mistake(f"docs/claims.csv lacks {measure} of {design} in {scene} at {height}.")
         return float(row[measure])
 
     def grid(self, study, measure="latency_ms"):
@@ -279,46 +269,6 @@ def shown(point, unit):
     return f"{point.value:.3f}" if unit == "×" else f"{figures.shown(point.value, unit)} {unit}"
 
 
-def stored():
-    return Data(figures.rows_of(MEASURED))
-
-
-def table(_):
-    data, lines = stored(), []
-    for row in claims():
-        points, fails, is_in_range = tried(data, row)
-        counts = []
-        for inside in (True, False):
-            part = [point for point in points if is_in_range(point.scene) == inside]
-            counts.append(f"{len([point for point in part if point not in fails])}/{len(part)}" if part else "—")
-        worst = (max if row["value"][0] == "<" else min)(points, key=lambda point: point.value)
-        lines.append([row["quantity"], figures.as_published(row["value"], row["unit"]), *counts,
-                      f"{shown(worst, row['unit'])} ({worst.label})", verdict(points, fails, is_in_range)])
-    head = ["claim", "published", "in the range", "outside", "worst point", "verdict"]
-    print("\n".join(f"| {' | '.join(line)} |" for line in [head, ["---"] * len(head), *lines]))
-
-
-def failing(options):
-    data = stored()
-    for row in claims():
-        if options.text in row["quantity"]:
-            for point in tried(data, row)[1]:
-                print(f"{row['quantity']} {row['value']} {row['unit']}: {shown(point, row['unit'])} ({point.label})")
-
-
-def scene_of(name):
-    return SCENES[name] or str(SCENES_AT / name / "scene.ply")
-
-
-def view_of(name):
-    """Counts of the view at 1080p, which say in which range a scene lies."""
-    text = subprocess.run([PROGRAM, "scene", "info", scene_of(name), "--camera", CAMERA, "--resolution", "1080p",
-                           "--json"], check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
-    info = json.loads(text)
-    return {"gaussians": info["scene"]["gaussians"],
-            "fragments_per_splat": f"{info['view']['fragments_per_splat']:.5g}"}
-
-
 def kept(study, scene, row):
     """A line of docs/claims.csv from one of a study's results."""
     line = {"study": study, "scene": scene, "height": row["height"], "design": row["design"],
@@ -329,53 +279,62 @@ def kept(study, scene, row):
     return line
 
 
-def swept(study, folder, options, *views):
-    """Results of a study; those that are there already are not simulated again."""
-    subprocess.run([PROGRAM, "sweep", ROOT / f"configs/studies/{study}.yaml", *views, "--no-reference", "--jobs",
-                    str(options.jobs), "--out", folder], check=True, stdout=subprocess.DEVNULL)
-    return figures.rows_of(folder / "results.csv")
+def asked():
+    """The points of all runs, and the views that say in which range a scene lies."""
+    return {"runs": {each: sweep(each[0], SCENES[each[1]],
+                                 f"--camera {CAMERA} --resolution {each[2]} --frames {each[3]}") for each in RUNS},
+            "views": {name: view(scene, f"--camera {CAMERA} --resolution 1080p") for name, scene in SCENES.items()}}
 
 
-def quick(options):
-    """The small views of the studies that scripts/figures.py does not run: they must have what is to be kept."""
-    with tempfile.TemporaryDirectory(prefix="degs-claims-") as folder:
-        for study in sorted({study for study, *_ in RUNS} - {value.study for value in figures.all_values()}):
-            lines = [kept(study, "object", row) for row in swept(study, Path(folder, study), options, "--quick")]
-            if not all(line["useful"] and line["latency_ms"] and line["preprocessing"] for line in lines):
-                raise Mistake(f"the results of {study} lack values.")
-            print(f"{study}: {len(lines)} points")
-
-
-def run(options):
-    if options.quick:
-        quick(options)
-        return
-    views, lines = {name: view_of(name) for name in SCENES}, {}
-    for study, scene, resolutions, frames in RUNS:
-        rows = swept(study, options.folder / f"{study}-{scene}-{resolutions}", options, "--scene", scene_of(scene),
-                     "--camera", CAMERA, "--resolution", resolutions, "--frames", str(frames))
+def rows_of(found):
+    """Rows of docs/claims.csv from the results of all runs; of a point that two runs have, the later counts."""
+    views = {name: {"gaussians": report.scene.gaussians,
+                    "fragments_per_splat": f"{report.view.fragments_per_splat:.5g}"}
+             for name, report in found["views"].items()}
+    lines = {}
+    for (study, scene, *_), rows in found["runs"].items():
         for row in rows:
             line = kept(study, scene, row) | views[scene]
             lines[tuple(line[key] for key in KEYS)] = line
-        print(f"{study}, {scene}, {resolutions}", flush=True)
-    with MEASURED.open("w", newline="") as file:
-        writer = csv.DictWriter(file, [*KEYS, *COLUMNS, *views["flowers"]], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(lines.values())
+    return list(lines.values())
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
-    commands = parser.add_subparsers(dest="command", required=True)
-    command = commands.add_parser("run")
-    command.add_argument("folder", type=Path, nargs="?", default=ROOT / "out/claims")
-    command.add_argument("--jobs", type=int, default=1)
-    command.add_argument("--quick", action="store_true")
-    commands.add_parser("table")
-    commands.add_parser("failing").add_argument("text", nargs="?", default="")
-    options = parser.parse_args()
-    figures.carry_out({"run": run, "table": table, "failing": failing}[options.command], options)
+@table("docs/claims.csv", "claims-runs")
+def claims_runs():
+    """All runs that the claims are tried on."""
+    rows = rows_of((yield asked()))
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
 
 
-if __name__ == "__main__":
-    main()
+@table(PAGE, "claims")
+def verdicts():
+    """Claims, points tried and verdicts."""
+    data, lines = Data(rows_of((yield asked()))), []
+    for row in claims():
+        points, fails, is_in_range = tried(data, row)
+        counts = []
+        for inside in (True, False):
+            part = [point for point in points if is_in_range(point.scene) == inside]
+            counts.append(f"{len([point for point in part if point not in fails])}/{len(part)}" if part else "—")
+        worst = (max if row["value"][0] == "<" else min)(points, key=lambda point: point.value)
+        lines.append([row["quantity"], figures.as_published(row["value"], row["unit"]), *counts,
+                      f"{shown(worst, row['unit'])} ({worst.label})", verdict(points, fails, is_in_range)])
+    head = ["claim", "published", "in the range", "outside", "worst point", "verdict"]
+    return markdown(head, lines, len(head))
+
+
+@table("docs/failed-claims.csv", "claims-failed")
+def failed():
+    """Every point at which a claim does not hold."""
+    data, text = Data(rows_of((yield asked()))), io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["claim", "published", "ours", "point"])
+    for row in claims():
+        for point in tried(data, row)[1]:
+            writer.writerow([row["quantity"], figures.as_published(row["value"], row["unit"]),
+                             shown(point, row["unit"]), point.label])
+    return text.getvalue()
