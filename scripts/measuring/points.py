@@ -19,6 +19,7 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
+from degs.design import Design  # noqa: E402
 from degs.process import call, program  # noqa: E402
 from degs.report import Report  # noqa: E402
 
@@ -42,7 +43,7 @@ class Missing(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Point:
-    """One call: `kind` is run, view, cost, sweep or command. `source` is a design of configs, a study of configs/studies
+    """One call: `kind` is run, view, cost, accuracy, sweep or command. `source` is a design of configs, a study of configs/studies
     or the words of a command; `runs` is how often it runs, one after the other and alone, where its times count."""
 
     kind: str
@@ -64,6 +65,8 @@ class Point:
             return ["scene", "info", *scene[1:], *self.options, "--json"]
         if self.kind == "cost":
             return ["config", design_file(self.source), "--cost", "--format", "json", *keys]
+        if self.kind == "accuracy":
+            return ["accuracy", *scene, *self.options, "--no-error-images"]
         if self.kind == "sweep":
             return ["sweep", str(ROOT / f"configs/studies/{self.source}.yaml"), *scene, *self.options, *keys]
         return [*self.source.split(), *self.options]
@@ -91,6 +94,8 @@ class Point:
             if not skip and word not in sized:
                 options.append(word)
             skip = word in sized
+        if self.kind == "accuracy":
+            options += ["--resolution", "720p"]
         if self.kind in ("run", "view"):
             options += ["--width", "160", "--camera", "1"]
         if self.kind == "sweep":
@@ -117,12 +122,22 @@ def cost(design, *keys):
     return Point("cost", design, keys=keys)
 
 
+def accuracy(scene, options=""):
+    """Errors of images by number sets: the rows of accuracy.json."""
+    return Point("accuracy", "", scene, tuple(options.split()))
+
+
 def sweep(study, scene="", options="", *keys):
     """All points of a study: the rows of its results.csv."""
     return Point("sweep", study, scene, tuple(options.split()), keys)
 
 
+@functools.lru_cache(maxsize=None)
 def design_file(name):
+    """The file of a design: a path, a name of configs, or FAMILY@PES of the family of an accelerator."""
+    if "@" in name:
+        family, pes = name.split("@")
+        return str(Design(family, int(pes)).file)
     return name if name.endswith(".yaml") else str(ROOT / f"configs/{name}.yaml")
 
 
@@ -204,7 +219,8 @@ def once(point, jobs):
             return {"rows": rows_of(pathlib.Path(folder, "results.csv")),
                     "seconds": [float(row["host.sim_s"]) for row in rows_of(pathlib.Path(folder, "host.csv"))]}
         call([*point.words(), "--out", folder], warn=False)
-        name = "analytic.json" if "analytic" in point.options else "report.json"
+        name = ("accuracy.json" if point.kind == "accuracy" else "analytic.json" if "analytic" in point.options
+                else "report.json")
         return json.loads(pathlib.Path(folder, name).read_text(encoding="utf-8"))
 
 
@@ -217,7 +233,7 @@ def shown(point, values):
     """The result as a table sees it."""
     if point.kind in ("run", "view", "cost"):
         return Report(values)
-    return values["rows"] if point.kind == "sweep" else values["text"]
+    return values if point.kind == "accuracy" else values["rows"] if point.kind == "sweep" else values["text"]
 
 
 def probe_of(point, values, seconds):
@@ -228,7 +244,7 @@ def probe_of(point, values, seconds):
         cheapest = min(range(len(values["rows"])), key=lambda index: values["seconds"][index])
         row = values["rows"][cheapest]
         return values["seconds"][cheapest], {**fields(point), "row": row["point"]}, numbers(row, PROBED_ROW)
-    if point.kind == "command" or "analytic" in point.options:
+    if point.kind in ("command", "accuracy") or "analytic" in point.options:
         return None
     return seconds / max(1, point.runs), fields(point), probed(point, values)
 
