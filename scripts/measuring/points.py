@@ -42,7 +42,7 @@ class Missing(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Point:
-    """One call: `kind` is run, view, cost, sweep or command. `source` is a design of configs, a study of configs/studies
+    """One call: `kind` is run, view, cost, accuracy, sweep or command. `source` is a design of configs, a study of configs/studies
     or the words of a command; `runs` is how often it runs, one after the other and alone, where its times count."""
 
     kind: str
@@ -62,6 +62,8 @@ class Point:
             return ["run", design_file(self.source), *scene, *options, *keys, *reference]
         if self.kind == "view":
             return ["scene", "info", *scene[1:], *self.options, "--json"]
+        if self.kind == "accuracy":
+            return ["accuracy", *scene, *self.options, "--no-error-images"]
         if self.kind == "cost":
             return ["config", design_file(self.source), "--cost", "--format", "json", *keys]
         if self.kind == "sweep":
@@ -115,6 +117,11 @@ def view(scene, options=""):
 def cost(design, *keys):
     """Areas and powers of a design: `degs config --cost`."""
     return Point("cost", design, keys=keys)
+
+
+def accuracy(scene, options):
+    """Errors of images in several --numbers: the entries of accuracy.json."""
+    return Point("accuracy", "", scene, tuple(options.split()))
 
 
 def sweep(study, scene="", options="", *keys):
@@ -204,6 +211,8 @@ def once(point, jobs):
             return {"rows": rows_of(pathlib.Path(folder, "results.csv")),
                     "seconds": [float(row["host.sim_s"]) for row in rows_of(pathlib.Path(folder, "host.csv"))]}
         call([*point.words(), "--out", folder], warn=False)
+        if point.kind == "accuracy":
+            return {"rows": json.loads(pathlib.Path(folder, "accuracy.json").read_text(encoding="utf-8"))}
         name = "analytic.json" if "analytic" in point.options else "report.json"
         return json.loads(pathlib.Path(folder, name).read_text(encoding="utf-8"))
 
@@ -217,7 +226,7 @@ def shown(point, values):
     """The result as a table sees it."""
     if point.kind in ("run", "view", "cost"):
         return Report(values)
-    return values["rows"] if point.kind == "sweep" else values["text"]
+    return values["text"] if point.kind == "command" else values["rows"]
 
 
 def probe_of(point, values, seconds):
@@ -239,6 +248,9 @@ def fields(point):
 
 
 def probed(point, values):
+    if point.kind == "accuracy":
+        rows = {f"{row['numbers']}: psnr_db": row["psnr_db"] for row in values["rows"]}
+        return numbers(rows, rows)
     report = Report(values["view"] if point.kind == "view" else values)
     names = PROBED_VIEW if point.kind == "view" else ("area.mm2", "area.power_w") if point.kind == "cost" else PROBED
     return numbers({name: report[name] for name in names if name in report}, names)
