@@ -42,8 +42,9 @@ class Missing(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Point:
-    """One call: `kind` is run, view, cost, accuracy, sweep or command. `source` is a design of configs, a study of configs/studies
-    or the words of a command; `runs` is how often it runs, one after the other and alone, where its times count."""
+    """One call: `kind` is run, view, cost, accuracy, sweep or command. `source` is a design of configs, a study of
+    configs/studies or the words of a command; `runs` is how often it runs, one after the other and alone, where its
+    times count."""
 
     kind: str
     source: str
