@@ -2,12 +2,14 @@
 """Points: single calls of the program whose results tables share.
 
 A point says what is simulated. Two tables that ask for the same point share its result. Scenes are names of folders of
-DEGS_SCENES (default ../shared/scenes), or of DEGS_SCENES_LARGE behind `large:`, or synthetic:NAME,...."""
+DEGS_SCENES (default ../shared/scenes), or of DEGS_SCENES_LARGE behind `large:`, or synthetic:NAME,.... Of the options
+of a run, `--field DEGREES` is ours: the camera gets that field of view, square pixels and the given size."""
 import csv
 import dataclasses
 import functools
 import hashlib
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -211,11 +213,28 @@ def once(point, jobs):
             call([*point.words(), "--jobs", str(jobs), "--out", folder], progress=False, warn=False)
             return {"rows": rows_of(pathlib.Path(folder, "results.csv")),
                     "seconds": [float(row["host.sim_s"]) for row in rows_of(pathlib.Path(folder, "host.csv"))]}
-        call([*point.words(), "--out", folder], warn=False)
+        call([*with_field(point.words(), pathlib.Path(folder, "camera.json")), "--out", folder], warn=False)
         if point.kind == "accuracy":
             return {"rows": json.loads(pathlib.Path(folder, "accuracy.json").read_text(encoding="utf-8"))}
         name = "analytic.json" if "analytic" in point.options else "report.json"
         return json.loads(pathlib.Path(folder, name).read_text(encoding="utf-8"))
+
+
+def with_field(words, file):
+    """A command line with a camera file in place of --field: the camera of a headset, at the place of the scene's."""
+    if "--field" not in words:
+        return words
+    named = dict(zip(words, words[1:]))
+    call(["scene", "cameras", named["--scene"], "--out", str(file)], warn=False)
+    camera = json.loads(file.read_text(encoding="utf-8"))[int(named["--camera"])]
+    width = int(named["--width"])
+    focal = width / 2 / math.tan(math.radians(float(named["--field"]) / 2))
+    kept = {key: camera[key] for key in ("id", "img_name", "position", "rotation")}
+    file.write_text(json.dumps([{**kept, "width": width, "height": int(named.get("--height", width)), "fx": focal,
+                                 "fy": focal}]), encoding="utf-8")
+    ours = ("--field", "--camera", "--width", "--height")
+    left = [word for before, word in zip(["", *words], words) if word not in ours and before not in ours]
+    return [*left, "--camera-file", str(file)]
 
 
 def rows_of(path):
