@@ -82,10 +82,6 @@ if(TARGET degs_program)
                   EXPECT "tiled to 600 Gaussians.*gscore . 64 . [0-9.]+ . [0-9.]+ . [0-9.]+ . [0-9.]+ "
                   ENVIRONMENT ${program} SCENE=synthetic:object,gaussians=200 GAUSSIANS=500 RESOLUTION=720p CAMERA=0
                   DESIGNS=gscore PES=64)
-    # Images by number set and records, of one small view: the far one, which has fewer fragments.
-    degs_all_test(sim/TableOfRoundedRecords COMMAND ${scripts}/records.py rounding --quick
-                  EXPECT "`fp16` [^|]*. synthetic:object,gaussians=2000 . [0-9.]+ / [0-9.]+ .[^#]*`tuned` . synthetic:object,gaussians=2000 . [0-9.]+ / 8[0-9.]+ "
-                  ENVIRONMENT ${program} CAMERA=0)
     # A path of real cameras, on small scenes.
     degs_all_test(sim/TableOfACameraPath COMMAND ${scripts}/regime.py --quick --path ${here}/random/cameras.json
                   EXPECT "interior . degs-64 . [0-9.]+ / [0-9.]+ / [0-9.]+ .*garden . gscore-64 . [0-9.]+ / [0-9.]+ / [0-9.]+ . [0-9.]+ / "

@@ -2,12 +2,14 @@
 """Points: single calls of the program whose results tables share.
 
 A point says what is simulated. Two tables that ask for the same point share its result. Scenes are names of folders of
-DEGS_SCENES (default ../shared/scenes), or of DEGS_SCENES_LARGE behind `large:`, or synthetic:NAME,...."""
+DEGS_SCENES (default ../shared/scenes), or of DEGS_SCENES_LARGE behind `large:`, or synthetic:NAME,.... Of the options
+of a run, `--field DEGREES` is ours: the camera gets that field of view, square pixels and the given size."""
 import csv
 import dataclasses
 import functools
 import hashlib
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -43,8 +45,9 @@ class Missing(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Point:
-    """One call: `kind` is run, view, cost, accuracy, sweep or command. `source` is a design of configs, a study of configs/studies
-    or the words of a command; `runs` is how often it runs, one after the other and alone, where its times count."""
+    """One call: `kind` is run, view, cost, accuracy, sweep or command. `source` is a design of configs, a study of
+    configs/studies or the words of a command; `runs` is how often it runs, one after the other and alone, where its
+    times count."""
 
     kind: str
     source: str
@@ -63,10 +66,10 @@ class Point:
             return ["run", design_file(self.source), *scene, *options, *keys, *reference]
         if self.kind == "view":
             return ["scene", "info", *scene[1:], *self.options, "--json"]
-        if self.kind == "cost":
-            return ["config", design_file(self.source), "--cost", "--format", "json", *keys]
         if self.kind == "accuracy":
             return ["accuracy", *scene, *self.options, "--no-error-images"]
+        if self.kind == "cost":
+            return ["config", design_file(self.source), "--cost", "--format", "json", *keys]
         if self.kind == "sweep":
             return ["sweep", str(ROOT / f"configs/studies/{self.source}.yaml"), *scene, *self.options, *keys]
         return [*self.source.split(), *self.options]
@@ -122,8 +125,8 @@ def cost(design, *keys):
     return Point("cost", design, keys=keys)
 
 
-def accuracy(scene, options=""):
-    """Errors of images by number sets: the rows of accuracy.json."""
+def accuracy(scene, options):
+    """Errors of images in several --numbers: the entries of accuracy.json."""
     return Point("accuracy", "", scene, tuple(options.split()))
 
 
@@ -218,10 +221,28 @@ def once(point, jobs):
             call([*point.words(), "--jobs", str(jobs), "--out", folder], progress=False, warn=False)
             return {"rows": rows_of(pathlib.Path(folder, "results.csv")),
                     "seconds": [float(row["host.sim_s"]) for row in rows_of(pathlib.Path(folder, "host.csv"))]}
-        call([*point.words(), "--out", folder], warn=False)
-        name = ("accuracy.json" if point.kind == "accuracy" else "analytic.json" if "analytic" in point.options
-                else "report.json")
+        call([*with_field(point.words(), pathlib.Path(folder, "camera.json")), "--out", folder], warn=False)
+        if point.kind == "accuracy":
+            return {"rows": json.loads(pathlib.Path(folder, "accuracy.json").read_text(encoding="utf-8"))}
+        name = "analytic.json" if "analytic" in point.options else "report.json"
         return json.loads(pathlib.Path(folder, name).read_text(encoding="utf-8"))
+
+
+def with_field(words, file):
+    """A command line with a camera file in place of --field: the camera of a headset, at the place of the scene's."""
+    if "--field" not in words:
+        return words
+    named = dict(zip(words, words[1:]))
+    call(["scene", "cameras", named["--scene"], "--out", str(file)], warn=False)
+    camera = json.loads(file.read_text(encoding="utf-8"))[int(named["--camera"])]
+    width = int(named["--width"])
+    focal = width / 2 / math.tan(math.radians(float(named["--field"]) / 2))
+    kept = {key: camera[key] for key in ("id", "img_name", "position", "rotation")}
+    file.write_text(json.dumps([{**kept, "width": width, "height": int(named.get("--height", width)), "fx": focal,
+                                 "fy": focal}]), encoding="utf-8")
+    ours = ("--field", "--camera", "--width", "--height")
+    left = [word for before, word in zip(["", *words], words) if word not in ours and before not in ours]
+    return [*left, "--camera-file", str(file)]
 
 
 def rows_of(path):
@@ -233,7 +254,7 @@ def shown(point, values):
     """The result as a table sees it."""
     if point.kind in ("run", "view", "cost"):
         return Report(values)
-    return values if point.kind == "accuracy" else values["rows"] if point.kind == "sweep" else values["text"]
+    return values["text"] if point.kind == "command" else values["rows"]
 
 
 def probe_of(point, values, seconds):
@@ -255,6 +276,9 @@ def fields(point):
 
 
 def probed(point, values):
+    if point.kind == "accuracy":
+        rows = {f"{row['numbers']}: psnr_db": row["psnr_db"] for row in values["rows"]}
+        return numbers(rows, rows)
     report = Report(values["view"] if point.kind == "view" else values)
     names = PROBED_VIEW if point.kind == "view" else ("area.mm2", "area.power_w") if point.kind == "cost" else PROBED
     return numbers({name: report[name] for name in names if name in report}, names)
