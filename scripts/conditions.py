@@ -55,7 +55,7 @@ def readings(place):
 
 
 def main():
-    beyond_page, readings_page = "[own machines](beyond-the-paper.md)", "[`scripts/ranges.sh`](readings.md)"
+    beyond_page, readings_page = "[own machines](beyond-the-paper.md)", "[readings](readings.md)"
     table = [
         ("five", 2, "1080p", "array alone", by_resolution("Geometric mean of the five scenes, camera 2:", "1080p"),
          "`scripts/resolutions.sh`"),

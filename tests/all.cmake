@@ -96,10 +96,6 @@ if(TARGET degs_program)
     degs_all_test(sim/AdviceOfOneView COMMAND ${scripts}/advice.py ${configs}/gscore-64.yaml ${configs}/gcc-64.yaml
                   --scenes synthetic:object,gaussians=2000 --width 240 --jobs 1 --strict
                   EXPECT "holds.*gcc-64.*3 of 3 .design, view, loss, key. cases" ENVIRONMENT ${program})
-    # The readings of the paper's text, on one small view.
-    degs_all_test(sim/TablesOfReadings COMMAND ${scripts}/ranges.sh --quick
-                  EXPECT "GCC . 1 . [0-9.]+ . [0-9.]+ . [0-9.]+ .*comparisons with all reports"
-                  ENVIRONMENT ${program} SCENES=synthetic:object,gaussians=200 "KINDS=speed frames")
 endif()
 
 if(DEGS_INSTALL)
