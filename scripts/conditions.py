@@ -55,14 +55,14 @@ def readings(place):
 
 
 def main():
-    beyond_page, readings_page = "[own machines](beyond-the-paper.md)", "[`scripts/ranges.sh`](readings.md)"
+    beyond_page, readings_page = "[own machines](beyond-the-paper.md)", "[readings](readings.md)"
     table = [
-        ("five", 2, "1080p", "array alone", by_resolution("Geometric mean of the five scenes, camera 2:", "1080p"),
-         "`scripts/resolutions.sh`"),
+        ("five", 2, "1080p", "array alone", by_resolution("<!-- measured: resolutions-close-ups -->", "1080p"),
+         "[sizes](#all-designs-from-720p-to-8k)"),
         ("five", 2, "1080p", "whole", whole("2"), "`scripts/results.sh`"),
         ("five others", 2, "1080p", "array alone", beyond(1), beyond_page),
         ("two", 2, "1080p", "array alone", readings(0), readings_page),
-        ("five", 1, "720p", "array alone", by_resolution("The same, camera 1:", "720p"), "`scripts/resolutions.sh`"),
+        ("five", 1, "720p", "array alone", by_resolution("<!-- measured: resolutions-small-splats -->", "720p"), "[sizes](#all-designs-from-720p-to-8k)"),
         ("five", 1, "720p", "whole", whole("1"), "`scripts/results.sh`"),
         ("five others", 1, "720p", "array alone", beyond(6), beyond_page),
         ("two", 1, "1080p", "array alone", readings(1), readings_page)]

@@ -73,10 +73,6 @@ if(TARGET degs_program)
     degs_all_test(sim/JobArrayOnSlurm COST 60 COMMAND ${here}/sweep/slurm.sh $<TARGET_FILE:degs_program> ${configs})
     degs_all_test(sim/RecipesOfClusters COST 20
                   COMMAND ${here}/sweep/clusters.sh $<TARGET_FILE:degs_program> ${PROJECT_SOURCE_DIR})
-    # The tables of all resolutions, on one small view.
-    degs_all_test(sim/TablesOfResolutions COMMAND ${scripts}/resolutions.sh --quick
-                  EXPECT "gcc-64 . [0-9.]+ / [0-9.]+ .[^#]*comparisons with all reports"
-                  ENVIRONMENT ${program} SCENES=synthetic:uniform,gaussians=500)
     # The table of a tiled scene, on a small one.
     degs_all_test(sim/TableOfALargeScene COMMAND ${scripts}/large_scenes.sh
                   EXPECT "tiled to 600 Gaussians.*gscore . 64 . [0-9.]+ . [0-9.]+ . [0-9.]+ . [0-9.]+ "
@@ -92,10 +88,6 @@ if(TARGET degs_program)
     degs_all_test(sim/AdviceOfOneView COMMAND ${scripts}/advice.py ${configs}/gscore-64.yaml ${configs}/gcc-64.yaml
                   --scenes synthetic:object,gaussians=2000 --width 240 --jobs 1 --strict
                   EXPECT "holds.*gcc-64.*3 of 3 .design, view, loss, key. cases" ENVIRONMENT ${program})
-    # The readings of the paper's text, on one small view.
-    degs_all_test(sim/TablesOfReadings COMMAND ${scripts}/ranges.sh --quick
-                  EXPECT "GCC . 1 . [0-9.]+ . [0-9.]+ . [0-9.]+ .*comparisons with all reports"
-                  ENVIRONMENT ${program} SCENES=synthetic:object,gaussians=200 "KINDS=speed frames")
 endif()
 
 if(DEGS_INSTALL)

@@ -8,9 +8,11 @@
 
 A declaration yields points, or a list or dictionary of them, gets their results in the same form, and returns text. On
 a page it stands below `<!-- measured: NAME -->`, up to the next empty line; any other file is all of it."""
+import csv
 import dataclasses
 import importlib
 import inspect
+import io
 import pathlib
 import pkgutil
 import typing
@@ -108,6 +110,13 @@ def markdown(head, rows, texts=1):
     """A Markdown table, of which the first `texts` columns are texts and the others numbers."""
     rule = ["---"] * texts + ["--:"] * (len(head) - texts)
     return "\n".join(f"| {' | '.join(str(cell) for cell in row)} |" for row in [head, rule, *rows])
+
+
+def csv_text(head, rows):
+    """A CSV file."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([head, *rows])
+    return text.getvalue()
 
 
 def placed_marks(root=ROOT):

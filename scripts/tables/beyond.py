@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables and the picture of docs/beyond-the-paper.md: machines of our own against those of the paper and the baselines,
 on the scenes that their search did not see, with cameras 2 (close-up) and 1 (small splats)."""
-import csv
-import io
-
 from measuring.numbers import geometric_mean, svg_of
 from measuring.points import ROOT, run
-from measuring.tables import markdown, table
+from measuring.tables import csv_text, markdown, table
 
 PAGE = "docs/beyond-the-paper.md"
 SCENES = ("fruit-drops", "guitar", "seal", "skull", "st-peter")
@@ -117,22 +114,20 @@ def all_runs():
     asked = {(group, setting): runs(machines, setting)
              for group, (machines, settings) in GROUPS.items() for setting in settings}
     found = yield asked
-    text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(["group", "design", "memory", "scene", "camera", "utilization", "bound", "throughput_fps",
-                   "latency_ms", "nj_per_frame", "area_mm2", "dram_gb_per_s", "limited_by"])
+    rows = []
     for (group, setting), by_name in found.items():
         for name, by_camera in by_name.items():
             for camera, reports in by_camera.items():
                 for scene, report in zip(SCENES, reports):
                     bound = bound_of(report) if setting == "alone" else None
                     moved = report.dram.bytes_read + report.dram.bytes_written
-                    rows.writerow([group, name, setting, scene, camera, f"{report.slots.utilization:.4f}",
-                                   f"{bound:.4f}" if bound else "", f"{rate(report):.2f}", f"{report.latency_ms:.6f}",
-                                   f"{report.energy.nj_per_frame:.1f}", f"{report.area.mm2:.4f}",
-                                   "" if setting == "alone" else f"{moved / report.cycles:.2f}",
-                                   report.stages.limited_by])
-    return text.getvalue()
+                    rows.append([group, name, setting, scene, camera, f"{report.slots.utilization:.4f}",
+                                 f"{bound:.4f}" if bound else "", f"{rate(report):.2f}", f"{report.latency_ms:.6f}",
+                                 f"{report.energy.nj_per_frame:.1f}", f"{report.area.mm2:.4f}",
+                                 "" if setting == "alone" else f"{moved / report.cycles:.2f}",
+                                 report.stages.limited_by])
+    return csv_text(["group", "design", "memory", "scene", "camera", "utilization", "bound", "throughput_fps",
+                     "latency_ms", "nj_per_frame", "area_mm2", "dram_gb_per_s", "limited_by"], rows)
 
 
 @table("docs/images/beyond.svg", "beyond-picture")
