@@ -117,6 +117,13 @@ INSTANTIATE_TEST_SUITE_P(
                           s["values"]["bufferView"] = 0;
                       },
                       "must increase and be below 2; number 1 is 0."},
+        SparseMistake{"Repeated",
+                      [](SparseJson& s, SparseJson&) { // the zeros behind the 1
+                          s["count"] = 2;
+                          s["indices"]["byteOffset"] = 1;
+                          s["values"]["bufferView"] = 0;
+                      },
+                      "must increase and be below 2; number 1 is 0."},
         SparseMistake{
             "BeyondTheCount",
             [](SparseJson& s, SparseJson&) { // the third byte of 1.0

@@ -67,5 +67,20 @@ TEST(HostileSplatFile, OtherBytesAreNoScene) {
     EXPECT_THAT(mistake(noise), IsSentenceWith("no .splat file"));
 }
 
+// Files are read in blocks of 2^15 records. Half of the first block is good, and so is the first
+// record of all; the only one of the second block is not.
+TEST(HostileSplatFile, RecordsOfEveryBlockAreLookedAt) {
+    constexpr std::size_t kBlock = 32768;
+    const test::Folder folder;
+    std::string bytes;
+    for (std::size_t i = 0; i < kBlock / 2; ++i) {
+        bytes += splat_record({1, 2, 3, 1, 1, 1}, {0, 0, 0, 255, 255, 128, 128, 128});
+    }
+    bytes.append((kBlock / 2 + 1) * 32, '\xff');
+    const std::string path = folder.write("bad.splat", bytes);
+    EXPECT_THAT(test::complaint([&] { read_splat_file(path); }),
+                IsSentenceWith("only 16384 of 32769 records"));
+}
+
 } // namespace
 } // namespace degs

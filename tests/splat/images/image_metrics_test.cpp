@@ -148,6 +148,20 @@ TEST(ImageMetrics, NonFinitePixelsAreNotHidden) {
     EXPECT_EQ(inf.max_abs_error, std::numeric_limits<double>::infinity());
 }
 
+// What is not a number is worse than an infinite error of the same pixel, and of one before it.
+TEST(ImageMetrics, WhatIsNotANumberIsWorseThanInfinity) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    const Image good = constant(4, 4, 0.5F);
+    Image bad = good;
+    bad.rgb[3] = infinity;
+    bad.rgb[4] = nan;
+    EXPECT_TRUE(std::isnan(compare_images(good, bad).max_abs_error));
+    bad.rgb[4] = 0.5F;
+    bad.rgb[40] = nan;
+    EXPECT_TRUE(std::isnan(compare_images(good, bad).max_abs_error));
+}
+
 TEST(ImageMetrics, SizesMustAgree) {
     EXPECT_THROW(compare_images(Image(4, 3), Image(3, 4)), InputError);
     EXPECT_THROW(compare_images(Image(0, 0), Image(0, 0)), InputError);
