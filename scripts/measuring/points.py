@@ -276,9 +276,6 @@ def fields(point):
 
 
 def probed(point, values):
-    if point.kind == "accuracy":
-        rows = {f"{row['numbers']}: psnr_db": row["psnr_db"] for row in values["rows"]}
-        return numbers(rows, rows)
     report = Report(values["view"] if point.kind == "view" else values)
     names = PROBED_VIEW if point.kind == "view" else ("area.mm2", "area.power_w") if point.kind == "cost" else PROBED
     return numbers({name: report[name] for name in names if name in report}, names)
