@@ -62,7 +62,8 @@ class Point:
         keys = [word for key in self.keys for word in ("--set", key)]
         if self.kind == "run":
             reference = [] if "--reference" in self.options else ["--no-reference"]
-            options = [word for word in self.options if word != "--reference"]
+            options = [str(ROOT / word) if word.startswith("configs/") else word for word in self.options
+                       if word != "--reference"]
             return ["run", design_file(self.source), *scene, *options, *keys, *reference]
         if self.kind == "view":
             return ["scene", "info", *scene[1:], *self.options, "--json"]
@@ -196,6 +197,11 @@ def depends_on(point):
         yield (ROOT / f"configs/studies/{point.source}.yaml").read_text(encoding="utf-8")
     for design in point.designs():
         yield values_of(*design)
+    if point.kind == "command":
+        yield point.source
+    for word in point.options:
+        if word.startswith("configs/"):
+            yield content(str(ROOT / word))
     yield json.dumps([point.kind, point.scene, point.options, point.keys if point.kind == "sweep" else (), point.runs])
 
 
@@ -295,7 +301,8 @@ def probed_again(probe):
     if "row" not in probe:
         return probed(point, once(point, 1))
     with tempfile.TemporaryDirectory(prefix="degs-measure-") as folder:
-        count = call([*point.words(), "--list"], warn=False).count("\n")
+        listed = call([*point.words(), "--list"], warn=False).splitlines()
+        count = max(int(line.split()[0]) for line in listed if line.split()[:1] and line.split()[0].isdigit())
         call([*point.words(), "--shard", f"{probe['row']}/{count}", "--out", folder], progress=False, warn=False)
         subprocess.run([program(), *point.words(), "--collect", "--out", folder], check=False,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -2,13 +2,13 @@
 """Tables and the picture of docs/beyond-the-paper.md: machines of our own against those of the paper and the baselines,
 on the scenes that their search did not see, with cameras 2 (close-up) and 1 (small splats)."""
 from measuring.numbers import geometric_mean, svg_of
-from measuring.points import ROOT, run
+from measuring.points import run
 from measuring.tables import csv_text, markdown, table
 
 PAGE = "docs/beyond-the-paper.md"
 SCENES = ("fruit-drops", "guitar", "seal", "skull", "st-peter")
 VIEWS = {"2": "close-up", "1": "small splats"}
-FAST = f"--memory {ROOT}/configs/memory/lpddr5-6400x256.yaml"
+FAST = "--memory configs/memory/lpddr5-6400x256.yaml"
 # Arrays alone, or behind a memory with this rate in GB/s: options and keys.
 SETTINGS = {"alone": ("--array-only", ()), "204.8": (f"--frames 4 {FAST}", ()),
             "409.6": (f"--frames 4 {FAST}", ("memory.lpddr5.channels=32",)),
