@@ -3,6 +3,7 @@
 #include <array>
 #include <fstream>
 
+#include "sim/soc/soc_study.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -107,6 +108,28 @@ TEST(SmallRunSoc, LoadsGoUpToThreeQuartersOfThePeak) {
     ASSERT_EQ(points.size(), 7U);
     for (std::size_t i = 0; i < points.size(); ++i) {
         EXPECT_DOUBLE_EQ(points[i]["offered_gb_per_s"], 204.8 * static_cast<double>(i) / 8);
+    }
+}
+
+// A row of 24 is due every 10 ns, in which no memory answers: all rows of a frame are late, and
+// none of a frame before it is among them.
+TEST(SmallRunSoc, LateRowsAreCountedFrameByFrame) {
+    sim::SocRequest request;
+    request.config = sim::load_run_config(config("degs-16"), {}, "");
+    request.loads = {0, 0, 0};
+    request.cores = 1;
+    request.refresh_hz = 4e6;
+    sim::ViewRequest wanted;
+    wanted.scene = "synthetic:object,gaussians=20";
+    wanted.width = 32;
+    const sim::SocResult result = sim::run_soc(request, sim::load_view(wanted));
+    ASSERT_EQ(result.points.size(), 3U);
+    EXPECT_EQ(result.points[0].late_rows, 0U); // nothing is shown before the first frame is there
+    for (const std::size_t point : {1, 2}) {
+        const sim::SocPoint& frame = result.points[point];
+        EXPECT_GT(frame.display_rows, 10U);
+        EXPECT_NEAR(static_cast<double>(frame.late_rows), static_cast<double>(frame.display_rows),
+                    1); // one may be on its way
     }
 }
 

@@ -10,6 +10,7 @@
 #include "sim/search/breeding.hpp"
 #include "sim/search/halving.hpp"
 #include "sim/search/round_choice.hpp"
+#include "sim/search/search.hpp"
 #include "sim/search/search_record.hpp"
 #include "tests/sim/process/child.hpp"
 
@@ -92,6 +93,52 @@ TEST(SearchRecord, CountsDesignsAndErrors) {
     EXPECT_TRUE(json["beliefs"][2]["found"]["latency_ms"].is_null());
     EXPECT_THAT(record_text(plan, search),
                 HasSubstr("5 cycles simulated; beliefs of latency_ms were off by 3.00 % (median)"));
+}
+
+/// Asks for estimates of all designs, and then for their simulations.
+class TwoSteps : public Searcher {
+public:
+    std::optional<Step> next() override {
+        if (rungs_.size() == 2) {
+            return {};
+        }
+        Step step;
+        step.variants = {0, 1};
+        step.change.estimates = rungs_.empty();
+        step.folder = rungs_.empty() ? "estimates" : "";
+        return step;
+    }
+    void take(const Rung& rung) override { rungs_.push_back(rung); }
+    const std::vector<Rung>& rungs() const override { return rungs_; }
+    Facts facts() const override { return {}; }
+
+private:
+    std::vector<Rung> rungs_;
+};
+
+TEST(SearchCycles, AreThoseOfSimulationsAlone) {
+    const sim_test::Folder folder;
+    std::ofstream(folder / "s.yaml")
+        << "designs:\n  - include: " << sim_test::config("degs-16")
+        << "\n    name: a\n  - include: " << sim_test::config("degs-64")
+        << "\n    name: b\nscenes: synthetic:object,gaussians=10\n"
+           "width: 16\nreference: false\ngoals: latency_ms\n";
+    const StudyPlan plan = plan_study(read_study(folder / "s.yaml"));
+    TwoSteps steps;
+    SearchPart alone;
+    std::optional<Failure> failure;
+    const Search found = search(plan, steps, alone, folder / "out", failure);
+    ASSERT_EQ(found.rungs.size(), 2U);
+    EXPECT_EQ(found.rungs[0].candidates.size(), 2U);
+    EXPECT_EQ(found.rungs[0].cycles, 0);
+    const auto written = nlohmann::json::parse(sim_test::read_file(folder / "out/results.json"));
+    double cycles = 0;
+    for (const auto& run : written["runs"]) {
+        EXPECT_GT(run["cycles"], 0);
+        cycles += run["cycles"].get<double>();
+    }
+    EXPECT_EQ(written["runs"].size(), 2U);
+    EXPECT_EQ(found.rungs[1].cycles, cycles);
 }
 
 // Once is enough: what another part has found to fail is not run again.
