@@ -14,6 +14,7 @@ import argparse
 import concurrent.futures
 import fnmatch
 import sys
+import tempfile
 import time
 
 from measuring import points, records
@@ -87,7 +88,7 @@ class Making:
 
     def measure(self, todo):
         """All points of a round. Those whose times count, and studies, come last and alone."""
-        alone = [point for point in todo if point.runs or point.kind in ("sweep", "command")]
+        alone = [point for point in todo if point.runs or point.kind == "sweep"]
         progress = Progress(self.store.seconds(todo), self.jobs)
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             running = {pool.submit(points.measured, point): point for point in todo if point not in alone}
@@ -151,17 +152,19 @@ def chosen(tables, names):
     return picked
 
 
-def check(tables, jobs):
+def check(picked, tables, jobs):
+    """Fails with a sentence for each of the `picked` tables that is stale, and for what names no table."""
     began = time.monotonic()
-    stale, untried, unmeasured = records.check(tables, jobs)
+    stale, untried, unmeasured = records.check(picked, jobs)
+    stale += [f"docs/tables.json: there is no table {name} in scripts/tables" for name in records.read()["tables"]
+              if name not in tables]
     stale += [f"{page}: there is no table {name} in scripts/tables" for page, name in placed_marks()
               if name not in tables or tables[name].place != page]
     for line in untried:
         print(f"not tried: {line}")
     if unmeasured:
         print(f"not measured by this command yet: {', '.join(unmeasured)}")
-    print(f"{len(tables) - len(unmeasured)} tables and {len(records.read()['probes'])} probes in "
-          f"{time.monotonic() - began:.0f} s")
+    print(f"{len(picked) - len(unmeasured)} tables checked in {time.monotonic() - began:.0f} s")
     if stale:
         sys.exit("\n".join(stale))
 
@@ -175,17 +178,19 @@ def main():
     parser.add_argument("--jobs", type=int, default=2, help="points at a time (default: 2)")
     parser.add_argument("--folder", default=str(points.ROOT / "out/measure"), help="results (default: out/measure)")
     options = parser.parse_args()
-    tables = chosen(declared_tables(), options.tables)
+    everything = declared_tables()
+    tables = chosen(everything, options.tables)
     if options.check:
-        check(tables, options.jobs)
+        check(tables, everything, options.jobs)
         return
     if options.list:
         kept = records.read()["tables"]
         for name, table in tables.items():
             print(f"{name:32} {table.place:28} {'measured' if name in kept else 'not measured'}")
         return
-    making = Making(tables, Store(options.folder), options.jobs, options.quick)
-    wrong = making.all()
+    with tempfile.TemporaryDirectory(prefix="degs-measure-") as temporary:
+        making = Making(tables, Store(temporary if options.quick else options.folder), options.jobs, options.quick)
+        wrong = making.all()
     print(f"{making.written} of {len(tables)} tables made")
     if wrong:
         sys.exit("\n".join(wrong))

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What several tables compute and draw."""
 import io
-import math
 
 
-def geometric_mean(values):
-    """Of numbers above 0."""
-    return math.exp(sum(math.log(value) for value in values) / len(values))
+def beside(values, base, digits, form):
+    """Cells of numbers, each with as many digits as `digits` says, and by how many percent they differ from `base`, if
+    there is one."""
+    cells = [f"{value:.{places}f}" for value, places in zip(values, digits)]
+    return [f"{cell} ({100 * (value / before - 1):{form}} %)"
+            for cell, value, before in zip(cells, values, base)] if base else cells
 
 
 def svg_of(draw, inches):

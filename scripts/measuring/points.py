@@ -2,8 +2,7 @@
 """Points: single calls of the program whose results tables share.
 
 A point says what is simulated. Two tables that ask for the same point share its result. Scenes are names of folders of
-DEGS_SCENES (default ../shared/scenes), or of DEGS_SCENES_LARGE behind `large:`, or synthetic:NAME,.... Of the options
-of a run, `--field DEGREES` is ours: the camera gets that field of view, square pixels and the given size."""
+DEGS_SCENES (default ../shared/scenes), or synthetic:NAME,.... Of the options of a run, `--field DEGREES` is ours: the camera gets that field of view, square pixels and the given size."""
 import csv
 import dataclasses
 import functools
@@ -26,7 +25,7 @@ from degs.process import call, program  # noqa: E402
 from degs.report import Report  # noqa: E402
 
 SCENES = pathlib.Path(os.environ.get("DEGS_SCENES", ROOT / "../shared/scenes"))
-LARGE = pathlib.Path(os.environ.get("DEGS_SCENES_LARGE", ROOT / "../shared/scenes-large"))
+FIVE = ("flowers", "guitar", "seal", "skull", "st-peter")  # scenes of most means
 HEIGHTS = {"720p": 720, "1080p": 1080, "2k": 1440, "4k": 2160, "8k": 4320}
 # Of a report: what a probe keeps, if it is there.
 PROBED = ("timing.cycles", "timing.throughput_fps", "timing.preprocessing_cycles", "slots.useful", "slots.boundary",
@@ -45,9 +44,8 @@ class Missing(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Point:
-    """One call: `kind` is run, view, cost, accuracy, sweep or command. `source` is a design of configs, a study of
-    configs/studies or the words of a command; `runs` is how often it runs, one after the other and alone, where its
-    times count."""
+    """One call: `kind` is run, view, accuracy or sweep. `source` is a design of configs or a study of configs/studies;
+    `runs` is how often it runs, one after the other and alone, where its times count."""
 
     kind: str
     source: str
@@ -69,19 +67,13 @@ class Point:
             return ["scene", "info", *scene[1:], *self.options, "--json"]
         if self.kind == "accuracy":
             return ["accuracy", *scene, *self.options, "--no-error-images"]
-        if self.kind == "cost":
-            return ["config", design_file(self.source), "--cost", "--format", "json", *keys]
-        if self.kind == "sweep":
-            return ["sweep", str(ROOT / f"configs/studies/{self.source}.yaml"), *scene, *self.options, *keys]
-        return [*self.source.split(), *self.options]
+        return ["sweep", str(ROOT / f"configs/studies/{self.source}.yaml"), *scene, *self.options, *keys]
 
     def designs(self):
         """Designs and changed keys whose values the result depends on."""
-        if self.kind in ("run", "cost"):
+        if self.kind == "run":
             return [(design_file(self.source), self.keys)]
-        if self.kind == "sweep":
-            return [(file, ()) for file in study_designs(self.source)]
-        return [(word, ()) for word in self.options if word.endswith(".yaml")]
+        return [(file, ()) for file in study_designs(self.source)] if self.kind == "sweep" else []
 
     def key(self):
         """What names the point in files."""
@@ -121,11 +113,6 @@ def view(scene, options=""):
     return Point("view", "", scene, tuple(options.split()))
 
 
-def cost(design, *keys):
-    """Areas and powers of a design: `degs config --cost`."""
-    return Point("cost", design, keys=keys)
-
-
 def accuracy(scene, options):
     """Errors of images in several --numbers: the entries of accuracy.json."""
     return Point("accuracy", "", scene, tuple(options.split()))
@@ -148,38 +135,47 @@ def design_file(name):
 def scene_file(name):
     if name.startswith("synthetic:"):
         return name
-    folder = LARGE / name[len("large:"):] if name.startswith("large:") else SCENES / name
-    file = folder if name.startswith("large:") else folder / "scene.ply"
+    file = SCENES / name / "scene.ply"
     if not file.exists():
         raise Missing(f"there is no scene {file}")
     return str(file)
 
 
-@functools.lru_cache(maxsize=None)
+def study_of(name):
+    """(file, content) of a study."""
+    file = ROOT / f"configs/studies/{name}.yaml"
+    return file, yaml.safe_load(file.read_text(encoding="utf-8"))
+
+
 def study_designs(name):
     """Files that the designs of a study include."""
-    file = ROOT / f"configs/studies/{name}.yaml"
-    names = [line.split(":", 1)[1].strip() for line in file.read_text(encoding="utf-8").splitlines()
-             if line.strip(" -").startswith("include:")]
-    return [str((file.parent / name).resolve()) for name in names if name.endswith(".yaml")]
+    file, study = study_of(name)
+    return [str((file.parent / design["include"]).resolve()) for design in study["designs"]]
+
+
+def included(node):
+    """Files that something in a study includes."""
+    if isinstance(node, dict):
+        for key, value in node.items():
+            yield from [value] if key == "include" else included(value)
+    elif isinstance(node, list):
+        for each in node:
+            yield from included(each)
 
 
 def study_resolutions(name):
     """Names of the resolutions of a study, as an option has them."""
-    study = yaml.safe_load((ROOT / f"configs/studies/{name}.yaml").read_text(encoding="utf-8"))
-    named = study.get("resolutions", "720p")
+    named = study_of(name)[1].get("resolutions", "720p")
     return named if isinstance(named, str) else ",".join(named)
 
 
 @functools.lru_cache(maxsize=None)
 def content(file):
-    """Digest of a file, or of the files of a folder."""
-    path, digest = pathlib.Path(file), hashlib.blake2b(digest_size=16)
-    for each in sorted(path.rglob("*")) if path.is_dir() else [path]:
-        if each.is_file():
-            with each.open("rb") as stream:
-                while block := stream.read(1 << 22):
-                    digest.update(block)
+    """Digest of a file."""
+    digest = hashlib.blake2b(digest_size=16)
+    with open(file, "rb") as stream:
+        while block := stream.read(1 << 22):
+            digest.update(block)
     return digest.hexdigest()
 
 
@@ -194,11 +190,12 @@ def depends_on(point):
     if point.scene and not point.scene.startswith("synthetic:"):
         yield content(scene_file(point.scene))
     if point.kind == "sweep":
-        yield (ROOT / f"configs/studies/{point.source}.yaml").read_text(encoding="utf-8")
+        file, study = study_of(point.source)
+        yield file.read_text(encoding="utf-8")
+        for name in set(included(study)):
+            yield content(str(file.parent / name))
     for design in point.designs():
         yield values_of(*design)
-    if point.kind == "command":
-        yield point.source
     for word in point.options:
         if word.startswith("configs/"):
             yield content(str(ROOT / word))
@@ -217,11 +214,8 @@ def measured(point, jobs=1):
 
 
 def once(point, jobs):
-    if point.kind in ("view", "cost"):
+    if point.kind == "view":
         return json.loads(call(point.words(), warn=False))
-    if point.kind == "command":
-        return {"text": subprocess.run([str(ROOT / point.words()[0]), *point.words()[1:]], check=True, text=True,
-                                       stdout=subprocess.PIPE).stdout}
     with tempfile.TemporaryDirectory(prefix="degs-measure-") as folder:
         if point.kind == "sweep":
             call([*point.words(), "--jobs", str(jobs), "--out", folder], progress=False, warn=False)
@@ -230,8 +224,7 @@ def once(point, jobs):
         call([*with_field(point.words(), pathlib.Path(folder, "camera.json")), "--out", folder], warn=False)
         if point.kind == "accuracy":
             return {"rows": json.loads(pathlib.Path(folder, "accuracy.json").read_text(encoding="utf-8"))}
-        name = "analytic.json" if "analytic" in point.options else "report.json"
-        return json.loads(pathlib.Path(folder, name).read_text(encoding="utf-8"))
+        return json.loads(pathlib.Path(folder, "report.json").read_text(encoding="utf-8"))
 
 
 def with_field(words, file):
@@ -258,9 +251,7 @@ def rows_of(path):
 
 def shown(point, values):
     """The result as a table sees it."""
-    if point.kind in ("run", "view", "cost"):
-        return Report(values)
-    return values["text"] if point.kind == "command" else values["rows"]
+    return Report(values) if point.kind in ("run", "view") else values["rows"]
 
 
 def probe_of(point, values, seconds):
@@ -271,7 +262,7 @@ def probe_of(point, values, seconds):
         cheapest = min(range(len(values["rows"])), key=lambda index: values["seconds"][index])
         row = values["rows"][cheapest]
         return values["seconds"][cheapest], {**fields(point), "row": row["point"]}, numbers(row, PROBED_ROW)
-    if point.kind in ("command", "accuracy") or "analytic" in point.options:
+    if point.kind == "accuracy":
         return None
     return seconds / max(1, point.runs), fields(point), probed(point, values)
 
@@ -283,7 +274,7 @@ def fields(point):
 
 def probed(point, values):
     report = Report(values["view"] if point.kind == "view" else values)
-    names = PROBED_VIEW if point.kind == "view" else ("area.mm2", "area.power_w") if point.kind == "cost" else PROBED
+    names = PROBED_VIEW if point.kind == "view" else PROBED
     return numbers({name: report[name] for name in names if name in report}, names)
 
 

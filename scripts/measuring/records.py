@@ -36,8 +36,9 @@ def write(kept):
     FILE.write_text("\n".join([*lines, "}}"]) + "\n", encoding="utf-8")
 
 
-def name_of(probe):
-    return digest([json.dumps(probe, sort_keys=True)])[:10]
+def name_of(probe, values):
+    """A probe that gives other values is another one, so that a table measured before stays stale."""
+    return digest([json.dumps([probe, values], sort_keys=True)])[:10]
 
 
 def add(table, asked, results):
@@ -49,9 +50,9 @@ def add(table, asked, results):
     if found:
         cheapest = min(seconds for seconds, *_ in found)
         names = {probe["name"] for probe in kept["probes"]}
-        cost, probe, values = min(found, key=lambda each: (each[0] > cheapest + 1 or name_of(each[1]) not in names,
+        cost, probe, values = min(found, key=lambda each: (each[0] > cheapest + 1 or name_of(*each[1:]) not in names,
                                                            each[0]))
-        name = name_of(probe)
+        name = name_of(probe, values)
         kept["probes"] = [each for each in kept["probes"] if each["name"] != name]
         kept["probes"].append({"name": name, "seconds": round(cost, 2), "point": probe, "values": values})
         kept["probes"].sort(key=lambda each: each["name"])
@@ -68,16 +69,15 @@ def differences(probe):
 
 
 def check(tables, jobs):
-    """(what is stale, what could not be tried, what has no record): sentences."""
+    """(what is stale, what could not be tried, what has no record) of some tables: sentences."""
     kept, stale, untried = read(), [], []
+    entries = {name: kept["tables"][name] for name in tables if name in kept["tables"]}
+    used = {entry["probe"] for entry in entries.values()}
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         depends = {name: pool.submit(lambda table: dependence(table.points()), table)
-                   for name, table in tables.items() if name in kept["tables"]}
-        probes = {probe["name"]: pool.submit(differences, probe) for probe in kept["probes"]}
-        for name, entry in kept["tables"].items():
-            if name not in tables:
-                stale.append(f"docs/tables.json: there is no table {name} any more")
-                continue
+                   for name, table in tables.items() if name in entries}
+        probes = {probe["name"]: pool.submit(differences, probe) for probe in kept["probes"] if probe["name"] in used}
+        for name, entry in entries.items():
             try:
                 reasons = probes[entry["probe"]].result() if entry["probe"] else []
                 if depends[name].result() != entry["depends"]:
@@ -90,4 +90,4 @@ def check(tables, jobs):
             if reasons:
                 stale.append(f"{entry['place']}: the table {name} is stale: {'; '.join(reasons[:3])}. "
                              f"Measure it anew: scripts/measure.py {name}")
-    return stale, untried, [name for name in tables if name not in kept["tables"]]
+    return stale, untried, [name for name in tables if name not in entries]

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables and the picture of docs/beyond-the-paper.md: machines of our own against those of the paper and the baselines,
 on the scenes that their search did not see, with cameras 2 (close-up) and 1 (small splats)."""
-from measuring.numbers import geometric_mean, svg_of
+from statistics import geometric_mean
+
+from measuring.numbers import svg_of
 from measuring.points import run
 from measuring.tables import csv_text, markdown, table
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Table of docs/cost.md: energy of the memory by the model `bus` over that by `lpddr5`, both of 204.8 GB/s."""
-from measuring.numbers import geometric_mean
+from statistics import geometric_mean
+
 from measuring.points import run
 from measuring.tables import markdown, table
 

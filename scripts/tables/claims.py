@@ -6,11 +6,9 @@ verdict is `our scene differs` if it holds at every point of the views in its ra
 `does not hold`. The range is, for what the workload of the array decides, views with at least FRAGMENTS fragments per
 visible splat at 1080p, and for frame rates and kinds of scenes, scenes with the numbers of Gaussians of the paper's."""
 import collections
-import csv
-import io
 
 from measuring.points import sweep, view
-from measuring.tables import markdown, table
+from measuring.tables import csv_text, markdown, table
 
 from tables import figures
 from tables.figures import HEIGHTS, SIZES, Mistake
@@ -303,11 +301,7 @@ def rows_of(found):
 def claims_runs():
     """All runs that the claims are tried on."""
     rows = rows_of((yield asked()))
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return text.getvalue()
+    return csv_text(list(rows[0]), [list(row.values()) for row in rows])
 
 
 @table(PAGE, "claims")
@@ -330,11 +324,7 @@ def verdicts():
 @table("docs/failed-claims.csv", "claims-failed")
 def failed():
     """Every point at which a claim does not hold."""
-    data, text = Data(rows_of((yield asked()))), io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["claim", "published", "ours", "point"])
-    for row in claims():
-        for point in tried(data, row)[1]:
-            writer.writerow([row["quantity"], figures.as_published(row["value"], row["unit"]),
-                             shown(point, row["unit"]), point.label])
-    return text.getvalue()
+    data = Data(rows_of((yield asked())))
+    return csv_text(["claim", "published", "ours", "point"],
+                    [[row["quantity"], figures.as_published(row["value"], row["unit"]), shown(point, row["unit"]),
+                      point.label] for row in claims() for point in tried(data, row)[1]])

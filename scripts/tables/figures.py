@@ -4,15 +4,13 @@
 docs/published.csv has the published values, and says where each stands and which point of which study stands beside it.
 The scene is flowers, with the cameras and resolutions of each study; docs/measured.csv has every value."""
 import ast
-import csv
 import functools
-import io
-import math
 import operator
 import re
+import statistics
 
 from measuring.points import ROOT, rows_of, sweep
-from measuring.tables import markdown, table
+from measuring.tables import csv_text, markdown, table
 
 PAGE = "docs/reproduction.md"
 PUBLISHED = ROOT / "docs/published.csv"
@@ -184,7 +182,7 @@ def measured(rows, value):
         of_camera = [number for view, number in numbers.items() if view[1] == camera]
         arithmetic = not value.over and " - " in value.measure or min(of_camera) <= 0
         means[camera] = (sum(of_camera) / len(of_camera) if arithmetic else
-                         math.exp(sum(map(math.log, of_camera)) / len(of_camera)))
+                         statistics.geometric_mean(of_camera))
     return means
 
 
@@ -267,9 +265,6 @@ def measured_values():
     """Every value of all tables and of all curves."""
     values = all_values()
     found = yield of_studies(values)
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*KEYS, *(f"camera {camera}" for camera in CAMERAS)])
-    writer.writerows(sorted([*value.key(), *(f"{means_of(found, value)[camera]:.5g}" for camera in CAMERAS)]
-                            for value in values))
-    return text.getvalue()
+    return csv_text([*KEYS, *(f"camera {camera}" for camera in CAMERAS)],
+                    sorted([*value.key(), *(f"{means_of(found, value)[camera]:.5g}" for camera in CAMERAS)]
+                           for value in values))

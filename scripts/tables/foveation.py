@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of docs/foveation.md: what a frame costs, and how far its image is from a full one, with foveation."""
+from measuring.numbers import beside
 from measuring.points import run
 from measuring.tables import markdown, table
 
@@ -36,9 +37,6 @@ def foveation(scene):
     for design, reports in found.items():
         base = millions(reports["plain"])
         for name, report in reports.items():
-            cells = [f"{value:.{digits}f}" for value, digits in zip(millions(report), (2, 2, 1, 2))]
-            if name != "plain":
-                cells = [f"{cell} ({100 * (value / before - 1):+.0f} %)"
-                         for cell, value, before in zip(cells, millions(report), base)]
+            cells = beside(millions(report), base if name != "plain" else None, (2, 2, 1, 2), "+.0f")
             rows.append([design, name, *cells, f"{100 * report.slots.utilization:.0f}", *errors(report)])
     return markdown(["design", "foveation", "Mpixels", "Mcycles", "MB", "mJ", "useful %", *PARTS], rows, 2)

@@ -2,8 +2,8 @@
 """Tables of docs/readings.md: what the published figures become over the readings that the paper's text allows, and
 what every single assumption is worth."""
 import dataclasses
+from statistics import geometric_mean
 
-from measuring.numbers import geometric_mean
 from measuring.points import run
 from measuring.tables import csv_text, markdown, table
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """PE utilization of arrays alone from 720p to 8K."""
-from measuring.numbers import geometric_mean
-from measuring.points import run
+from statistics import geometric_mean
+
+from measuring.points import FIVE, run
 from measuring.tables import csv_text, markdown, table
 
-FIVE = ("flowers", "guitar", "seal", "skull", "st-peter")
 VIEWS = {"five scenes, camera 2": (FIVE, "2"), "five scenes, camera 1": (FIVE, "1"),
          "landscape, camera 2": (("synthetic:landscape,gaussians=3000000",), "2")}
 SIZES = {"720p": "720p", "1080p": "1080p", "2K": "2k", "4K": "4k", "8K": "8k"}

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of docs/results.md on whole accelerators, single scenes and images; tables/resolutions.py has the sizes."""
-from measuring.numbers import geometric_mean
-from measuring.points import run
+from statistics import geometric_mean
+
+from measuring.points import FIVE, run
 from measuring.tables import markdown, table
 from tables import beyond
-from tables.resolutions import FIVE, arrays, useful
+from tables.resolutions import arrays, useful
 
 PAGE = "docs/results.md"
 SIZES = {"2": "1080p", "1": "720p"}  # of the images of a camera

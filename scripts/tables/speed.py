@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of docs/speed.md: what feedback costs in exact runs."""
-from measuring.points import run
+from measuring.points import FIVE, run
 from measuring.tables import markdown, table
 
-SCENES = ("flowers", "guitar", "seal", "skull", "st-peter")
 RELAXED = {"no reuse distance": ("scheduler.reuse_cycles=1", "array.writeback_cycles=1"),
            "finished tiles seen 64 cycles late": ("monitor.latency_cycles=64",),
            "finished tiles not seen": ("monitor.cancel=false",)}
@@ -13,7 +12,7 @@ RELAXED = {"no reuse distance": ("scheduler.reuse_cycles=1", "array.writeback_cy
 def speed_relaxed():
     """Error of the cycles, and host time over that of the design as it is: smallest and largest of the views."""
     found = yield {name: [run("degs-64", scene, "--camera 2", "pipeline.numbers=fp32", *keys, runs=3)
-                          for scene in SCENES] for name, keys in {"plain": (), **RELAXED}.items()}
+                          for scene in FIVE] for name, keys in {"plain": (), **RELAXED}.items()}
     rows = []
     for name in RELAXED:
         pairs = list(zip(found[name], found["plain"]))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of docs/stereo.md: what two eyes of a headset save when they share the reading of the scene."""
+from measuring.numbers import beside
 from measuring.points import run
 from measuring.tables import markdown, table
 
@@ -29,9 +30,6 @@ def stereo(scene, units):
     for design, reports in found.items():
         base = millions(reports["nothing"])
         for step, report in reports.items():
-            cells = [f"{value:.{digits}f}" for value, digits in zip(millions(report), (1, 1, 2, 2))]
-            if step != "nothing":
-                cells = [f"{cell} ({100 * (value / before - 1):+.1f} %)"
-                         for cell, value, before in zip(cells, millions(report), base)]
+            cells = beside(millions(report), base if step != "nothing" else None, (1, 1, 2, 2), "+.1f")
             rows.append([design, f"`{step}`", *cells])
     return markdown(["design", "shared", "scene read, MB", "memory, MB", "Mcycles", "mJ"], rows, 2)

@@ -103,6 +103,24 @@ class Measure(unittest.TestCase):
         self.assertEqual(len(self.stale()), 2)
         self.assertIn("values of their keys", self.stale()[0])
 
+    def test_a_probe_that_changed_stays_so_for_tables_that_were_not_measured_again(self):
+        @self.tables.table("docs/second.csv")
+        def second():
+            return f"cycles\n{(yield self.points.run('degs-64', 'synthetic:object')).cycles}"
+        tables = dict(self.tables.TABLES)
+        self.make({name: tables[name] for name in ("second", "later")})
+        self.set("cycles", "1000001")
+        (self.folder / "kept").rename(self.folder / "of the build before")
+        self.make({"second": tables["second"]})
+        stale = self.records.check(tables, 2)[0]
+        self.assertEqual(len(stale), 1)
+        self.assertIn("the table later is stale", stale[0])
+
+    def test_a_part_of_the_tables_can_be_checked(self):
+        self.make()
+        self.set("cycles", "1000001")
+        self.assertEqual(len(self.records.check({"later": self.all["later"]}, 2)[0]), 1)
+
     def test_a_changed_text_is_found(self):
         self.make()
         self.page.write_text(self.page.read_text().replace("2000000", "1999999"))

@@ -7,7 +7,7 @@
 namespace degs {
 namespace {
 
-/// A memory that says of its initiators what it is told to.
+/// A memory whose initiators have the traffic that a test sets.
 class ToldMemory : public MainMemory {
 public:
     explicit ToldMemory(std::vector<MemoryTraffic> told) : told_(std::move(told)) {}
