@@ -164,7 +164,7 @@ def check(picked, tables, jobs):
         print(f"not tried: {line}")
     if unmeasured:
         print(f"not measured by this command yet: {', '.join(unmeasured)}")
-    print(f"{len(picked) - len(unmeasured)} tables checked in {time.monotonic() - began:.0f} s")
+    print(f"{len(picked) - len(unmeasured) - len(untried)} tables checked in {time.monotonic() - began:.0f} s")
     if stale:
         sys.exit("\n".join(stale))
 
