@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The sentences of the paper that can fail, tried on our scenes, with a verdict on each.
 
-The claims are the rows 'Claims' of docs/published.csv. A claim `holds` if it holds at every point tried. Otherwise its
-verdict is `our scene differs` if it holds at every point of the views in its range, and there are some; else it is
-`does not hold`. The range is, for what the workload of the array decides, views with at least FRAGMENTS fragments per
-visible splat at 1080p, and for frame rates and kinds of scenes, scenes with the numbers of Gaussians of the paper's."""
+The claims are the rows 'Claims' of docs/published.csv, each tried on every scene. A claim `holds` if it holds at every
+point. If it fails somewhere, it `holds on` the scenes at all points of which it holds; else it `does not hold`."""
 import collections
 
-from measuring.points import sweep, view
+from measuring.points import sweep
 from measuring.tables import csv_text, markdown, table
 
 from tables import figures
@@ -17,25 +15,21 @@ PAGE = "docs/reproduction.md"
 SCENES = {"flowers": "flowers", "garden-crop": "garden-crop", "garden": "synthetic:garden",
           "interior": "synthetic:interior", "landscape": "synthetic:landscape,gaussians=3000000"}
 CAMERA = "2"
-# Study, scene, resolutions, and frames of a path (three give a throughput).
-RUNS = [("claims", "flowers", "720p,1080p,2k,4k", 3), ("scaling", "flowers", "720p,1080p,2k,4k", 1),
-        *(("real-time", scene, "4k", 1) for scene in ("flowers", "garden", "landscape")),
-        *(("8k", scene, "8k", 1) for scene in ("flowers", "garden", "landscape")),
-        ("scaling", "garden-crop", "720p,1080p,2k,4k", 1), ("claims", "garden-crop", "2k,4k", 1),
-        ("claims", "garden-crop", "720p,1080p", 3),
-        ("claims", "garden", "720p,1080p", 3), ("claims", "interior", "1080p", 1),
-        *((study, scene, resolutions, 1) for scene in ("flowers", "garden-crop", "garden") for study, resolutions in
-          (("banks", "1080p"), ("segment-length", "720p,1080p,2k"))),
-        *(("real-time", scene, "720p,1080p,2k", 1) for scene in ("flowers", "garden")),
-        *((study, "garden", resolution, 1) for resolution in ("2k", "4k") for study in ("claims", "scaling")),
-        ("scaling", "garden", "720p,1080p", 1)]
+CLOSE, LARGE = ("flowers", "garden-crop"), ("garden", "interior", "landscape")
+# Study, scene, resolutions, and frames of a path (three give a throughput): large scenes have fewer resolutions.
+RUNS = [*(run for scene in CLOSE for run in
+          (("claims", scene, "720p,1080p,2k,4k", 3), ("scaling", scene, "720p,1080p,2k,4k", 1),
+           ("banks", scene, "1080p", 1), ("segment-length", scene, "720p,1080p,2k", 1))),
+        *(run for scene in LARGE for run in
+          (("claims", scene, "1080p", 3), ("scaling", scene, "1080p,4k", 1), ("banks", scene, "1080p", 1),
+           ("segment-length", scene, "720p,1080p", 1))),
+        *((study, scene, resolution, 1) for scene in SCENES for study, resolution in
+          (("real-time", "4k"), ("8k", "8k")))]
 COLUMNS = {"pes": "pes", "useful": "slots.utilization", "ended": "slots.terminated", "latency_ms": "latency_ms",
            "preprocessing": "preprocessing_cycles / cycles", "throughput_fps": "throughput_fps",
            "nj_per_frame": "energy.nj_per_frame", "area_mm2": "area_mm2"}
 AXES = {"banks": "scheduler.banks", "segment-length": "scheduler.segment_length"}
 KEYS = ("study", "scene", "height", "design", "axis")
-FRAGMENTS = 1450  # per visible splat at 1080p: from here on degs-16 to degs-1024 reach the paper's utilisation
-GAUSSIANS = (1e6, 6e6)  # of the paper's scenes
 BASELINES = ("gscore", "gbu", "gcc")
 BANKS = {"16": "4", "64": "8", "256": "16", "1024": "32"}  # of the design itself
 NAMES = {height: name for name, height in HEIGHTS.items()}
@@ -48,7 +42,6 @@ class Data:
 
     def __init__(self, rows):
         self.rows = {tuple(row[key] for key in KEYS): row for row in rows}
-        self.views = {row["scene"]: row for row in rows}
 
     def get(self, measure, study, scene, height, design, axis=""):
         """A number, or a mistake if it was not measured."""
@@ -61,12 +54,6 @@ class Data:
         """All pairs of scene and height that a study has with this measure."""
         return list(dict.fromkeys((row["scene"], row["height"]) for row in self.rows.values()
                                   if row["study"] == study and row[measure]))
-
-    def in_range(self, scene, kind):
-        view = self.views[scene]
-        if kind == "gaussians":
-            return GAUSSIANS[0] <= float(view["gaussians"]) <= GAUSSIANS[1]
-        return float(view["fragments_per_splat"]) >= FRAGMENTS
 
 
 def place(scene, height, more):
@@ -143,14 +130,15 @@ def lowest(data):
 
 
 def outdoors(data):
-    """Latency per mm2 of a baseline over DeGS in the garden, over that in the flat."""
+    """Latency per mm2 of a baseline over DeGS in a scene outdoors, over that in the flat."""
     def gain(scene, name):
         def cost(design):
             return (data.get("latency_ms", "claims", scene, "1080", design) *
                     data.get("area_mm2", "claims", scene, "1080", design))
         return cost(f"{name}-64") / cost("degs-64")
-    for name in BASELINES:
-        yield Point("garden", f"garden over interior 1080p, {name}-64", gain("garden", name) / gain("interior", name))
+    for scene in ("garden", "landscape"):
+        for name in BASELINES:
+            yield Point(scene, f"{scene} over interior 1080p, {name}-64", gain(scene, name) / gain("interior", name))
 
 
 def frame_rate(pes):
@@ -199,8 +187,9 @@ def growth_with_banks(data):
 
 def gain_of_segments(data):
     """How much more redundancy half as long segments save at a resolution than at the next higher one."""
-    heights = ("720", "1080", "1440")
-    for scene in dict.fromkeys(scene for scene, _ in data.grid("segment-length")):
+    grid = data.grid("segment-length")
+    for scene in dict.fromkeys(scene for scene, _ in grid):
+        heights = [height for height in ("720", "1080", "1440") if (scene, height) in grid]
         def gain(height, long):
             coarse, fine = (1 - data.get("useful", "segment-length", scene, height, "degs-64", str(length))
                             for length in (long, long // 2))
@@ -210,29 +199,29 @@ def gain_of_segments(data):
                 yield Point(scene, place(scene, low, f"{long} to {long // 2} px"), gain(low, long) - gain(high, long))
 
 
-# Names of docs/published.csv with the range that decides about a scene, and what gives the points.
+# Names of docs/published.csv, and what gives the points.
 CLAIMS = {
-    "best PE utilisation (arrays alone)": ("fragments", best("scaling", "useful", 1)),
-    "best latency": ("fragments", best("claims", "latency_ms", -1)),
-    "best latency per mm²": ("fragments", best("claims", "latency_ms", -1, True)),
-    "best throughput": ("fragments", best("claims", "throughput_fps", 1)),
-    "best throughput per mm²": ("fragments", best("claims", "throughput_fps", 1, True)),
-    "least energy": ("fragments", best("claims", "nj_per_frame", -1)),
-    "least energy per mm²": ("fragments", best("claims", "nj_per_frame", -1, True)),
-    "utilisation of DeGS at 4K": ("fragments", utilization_of_degs),
-    "utilisation kept from 16 to 1024 PEs": ("fragments", graceful),
-    "latency per mm² best at more PEs": ("fragments", scale_of_best),
-    "redundancy in space, 1024 over 16 PEs": ("fragments", grown(in_space)),
-    "redundancy in time, 1024 over 16 PEs": ("fragments", grown(in_time)),
-    "utilisation of GSCore, the lowest": ("fragments", lowest),
-    "gain outdoors over gain indoors": ("gaussians", outdoors),
-    "frame rate at 4K, 64 PEs": ("gaussians", frame_rate("64")),
-    "frame rate at 4K, 256 PEs": ("gaussians", frame_rate("256")),
-    "preprocessing, 51.2 over 204.8 GB/s": ("gaussians", preprocessing),
-    "rendering's share at 8K, 256 PEs": ("gaussians", rendering_at_8k),
-    "redundancy in space, banks of Table III": ("fragments", own_banks),
-    "growth with banks, more at more PEs": ("fragments", growth_with_banks),
-    "gain of segments, more at low resolution": ("fragments", gain_of_segments),
+    "best PE utilisation (arrays alone)": best("scaling", "useful", 1),
+    "best latency": best("claims", "latency_ms", -1),
+    "best latency per mm²": best("claims", "latency_ms", -1, True),
+    "best throughput": best("claims", "throughput_fps", 1),
+    "best throughput per mm²": best("claims", "throughput_fps", 1, True),
+    "least energy": best("claims", "nj_per_frame", -1),
+    "least energy per mm²": best("claims", "nj_per_frame", -1, True),
+    "utilisation of DeGS at 4K": utilization_of_degs,
+    "utilisation kept from 16 to 1024 PEs": graceful,
+    "latency per mm² best at more PEs": scale_of_best,
+    "redundancy in space, 1024 over 16 PEs": grown(in_space),
+    "redundancy in time, 1024 over 16 PEs": grown(in_time),
+    "utilisation of GSCore, the lowest": lowest,
+    "gain outdoors over gain indoors": outdoors,
+    "frame rate at 4K, 64 PEs": frame_rate("64"),
+    "frame rate at 4K, 256 PEs": frame_rate("256"),
+    "preprocessing, 51.2 over 204.8 GB/s": preprocessing,
+    "rendering's share at 8K, 256 PEs": rendering_at_8k,
+    "redundancy in space, banks of Table III": own_banks,
+    "growth with banks, more at more PEs": growth_with_banks,
+    "gain of segments, more at low resolution": gain_of_segments,
 }
 
 
@@ -242,21 +231,19 @@ def holds(value, text, unit):
     return value < bound if text[0] == "<" else value > bound
 
 
-def verdict(points, fails, is_in_range):
-    """The rule of the page: what is in the range decides whether a failure is the scene's."""
-    if not fails:
+def verdict(points, fails):
+    """The rule of the page."""
+    failed = {point.scene for point in fails}
+    kept = [scene for scene in dict.fromkeys(point.scene for point in points) if scene not in failed]
+    if not failed:
         return "holds"
-    inside = [point for point in points if is_in_range(point.scene)]
-    return "does not hold" if not inside or any(map(is_in_range, (point.scene for point in fails))) \
-        else "our scene differs"
+    return f"holds on {', '.join(kept)}" if kept else "does not hold"
 
 
 def tried(data, row):
-    """The points of a claim, those that fail, and a test of their scenes."""
-    kind, points_of = CLAIMS[row["quantity"]]
-    points = list(points_of(data))
-    fails = [point for point in points if not holds(point.value, row["value"], row["unit"])]
-    return points, fails, lambda scene: data.in_range(scene, kind)
+    """The points of a claim, and those that fail."""
+    points = list(CLAIMS[row["quantity"]](data))
+    return points, [point for point in points if not holds(point.value, row["value"], row["unit"])]
 
 
 def claims():
@@ -278,23 +265,14 @@ def kept(study, scene, row):
 
 
 def asked():
-    """The points of all runs, and the views that say in which range a scene lies."""
-    return {"runs": {each: sweep(each[0], SCENES[each[1]],
-                                 f"--camera {CAMERA} --resolution {each[2]} --frames {each[3]}") for each in RUNS},
-            "views": {name: view(scene, f"--camera {CAMERA} --resolution 1080p") for name, scene in SCENES.items()}}
+    """The points of all runs."""
+    return {each: sweep(each[0], SCENES[each[1]], f"--camera {CAMERA} --resolution {each[2]} --frames {each[3]}")
+            for each in RUNS}
 
 
 def rows_of(found):
-    """Rows of docs/claims.csv from the results of all runs; of a point that two runs have, the later counts."""
-    views = {name: {"gaussians": report.scene.gaussians,
-                    "fragments_per_splat": f"{report.view.fragments_per_splat:.5g}"}
-             for name, report in found["views"].items()}
-    lines = {}
-    for (study, scene, *_), rows in found["runs"].items():
-        for row in rows:
-            line = kept(study, scene, row) | views[scene]
-            lines[tuple(line[key] for key in KEYS)] = line
-    return list(lines.values())
+    """Rows of docs/claims.csv from the results of all runs."""
+    return [kept(study, scene, row) for (study, scene, *_), rows in found.items() for row in rows]
 
 
 @table("docs/claims.csv", "claims-runs")
@@ -306,18 +284,17 @@ def claims_runs():
 
 @table(PAGE, "claims")
 def verdicts():
-    """Claims, points tried and verdicts."""
+    """Claims, points and scenes at which they hold, and verdicts."""
     data, lines = Data(rows_of((yield asked()))), []
     for row in claims():
-        points, fails, is_in_range = tried(data, row)
-        counts = []
-        for inside in (True, False):
-            part = [point for point in points if is_in_range(point.scene) == inside]
-            counts.append(f"{len([point for point in part if point not in fails])}/{len(part)}" if part else "—")
+        points, fails = tried(data, row)
+        scenes = {point.scene for point in points}
+        whole = scenes - {point.scene for point in fails}
         worst = (max if row["value"][0] == "<" else min)(points, key=lambda point: point.value)
-        lines.append([row["quantity"], figures.as_published(row["value"], row["unit"]), *counts,
-                      f"{shown(worst, row['unit'])} ({worst.label})", verdict(points, fails, is_in_range)])
-    head = ["claim", "published", "in the range", "outside", "worst point", "verdict"]
+        lines.append([row["quantity"], figures.as_published(row["value"], row["unit"]),
+                      f"{len(points) - len(fails)}/{len(points)}", f"{len(whole)}/{len(scenes)}",
+                      f"{shown(worst, row['unit'])} ({worst.label})", verdict(points, fails)])
+    head = ["claim", "published", "points", "scenes", "worst point", "verdict"]
     return markdown(head, lines, len(head))
 
 

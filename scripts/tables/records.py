@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of docs/readings.md and docs/numbers.md on what records, tile lists, rows of engines and a joint reading are
-worth, and on images of rounded records."""
+"""Tables of docs/readings.md and docs/numbers.md on what records, tile lists and rows of engines are worth, and on
+images of rounded records."""
 from measuring.points import accuracy, run
 from measuring.tables import markdown, table
 
@@ -19,8 +19,6 @@ LISTS = {"stream (shipped)": (),
 PASSES = {"degs-64": "sorting.memory_passes=2", "gscore-64": "sorting.memory_levels=2"}
 STREAMS = ("tile_lists_written", "tile_lists_sorted", "list_heads")
 RATES = (0, 8, 4, 2, 1)
-JOINT = ("pipeline.tiles=box", "slicing.rows=tile", "slicing.interleave=2", "span.rows=pool",
-         "pixel_buffer.release=bank", "pipeline.span_ends=exact", "scheduler.termination=pixel")
 NUMBERS = ("ideal", "fp32", "fp16", "paper", "tuned")
 RECORDS = ("fp16", "tuned")
 
@@ -75,26 +73,6 @@ def readings_lists():
             for scene, named in found.items() for name, reports in named.items()]
     return markdown(["scene", "entries", "DeGS-64, cycles", "lists, % of bytes", "GSCore-64, cycles",
                      "lists, % of bytes"], rows, 2)
-
-
-@table(PAGE)
-def readings_joint():
-    """The files *-joint.yaml together."""
-    found = yield {scene: {design: run(f"readings/{design}-joint", file, VIEW) for design in DESIGNS}
-                   for scene, file in MIDDLE.items()}
-    return markdown(["scene", "useful share of DeGS-64, %", *BASELINES.values()],
-                    [[scene, f"{100 * reports['degs-64'].slots.utilization:.1f}", *ratios(reports)]
-                     for scene, reports in found.items()])
-
-
-@table(PAGE)
-def readings_joint_keys():
-    """Frames per second that each key of the joint reading gives DeGS alone."""
-    found = yield {key: [[run("degs-64", file, VIEW), run("degs-64", file, VIEW, key)] for file in MIDDLE.values()]
-                   for key in JOINT}
-    return markdown(["key alone", *MIDDLE],
-                    [[f"`{key}`", *(f"{100 * (shipped.cycles / changed.cycles - 1):+.1f}"
-                                    for shipped, changed in pairs)] for key, pairs in found.items()])
 
 
 @table("docs/numbers.md")

@@ -12,37 +12,28 @@ from measuring import points  # noqa: E402
 from tables import claims, figures  # noqa: E402
 
 
-def results(study="claims", fragments=2000, **of_degs):
+def results(study="claims", **of_degs):
     """A grid of one view in which DeGS is twice as good as GBU, the best of the baselines, at every size."""
     rows = []
     for name, times in (("degs", 1), ("gbu", 2), ("gcc", 3), ("gscore", 4)):
         for pes in figures.SIZES:
             row = {"study": study, "scene": "s", "height": "2160", "design": f"{name}-{pes}", "axis": "",
-                   "gaussians": "100", "fragments_per_splat": str(fragments), "useful": 0.9 / times, "ended": 0.1,
-                   "latency_ms": times / int(pes), "area_mm2": 1, "throughput_fps": "", "nj_per_frame": times}
+                   "useful": 0.9 / times, "ended": 0.1, "latency_ms": times / int(pes), "area_mm2": 1, "throughput_fps": "", "nj_per_frame": times}
             rows.append(row | (of_degs if name == "degs" else {}))
     return claims.Data(rows)
 
 
 class Verdicts(unittest.TestCase):
-    def verdict(self, **points):
-        """Of points in the scenes `inside` and `outside`, true where a claim holds."""
-        listed = [claims.Point(scene, "", value) for scene, values in points.items() for value in values]
-        return claims.verdict(listed, [point for point in listed if not point.value], lambda scene: scene == "inside")
+    def verdict(self, **scenes):
+        """For points by scene, true where a claim holds."""
+        listed = [claims.Point(scene, "", value) for scene, values in scenes.items() for value in values]
+        return claims.verdict(listed, [point for point in listed if not point.value])
 
     def test_rule(self):
-        self.assertEqual(self.verdict(inside=[1, 1], outside=[1]), "holds")
-        self.assertEqual(self.verdict(outside=[1]), "holds")
-        self.assertEqual(self.verdict(inside=[1, 1], outside=[1, 0]), "our scene differs")
-        self.assertEqual(self.verdict(inside=[1, 0], outside=[1, 0]), "does not hold")
-        self.assertEqual(self.verdict(inside=[1, 0], outside=[1, 1]), "does not hold")
-        # Without a point in the range nothing shows that the scene is the cause.
-        self.assertEqual(self.verdict(outside=[1, 0]), "does not hold")
-
-    def test_range(self):
-        self.assertTrue(results(fragments=1450).in_range("s", "fragments"))
-        self.assertFalse(results(fragments=1449).in_range("s", "fragments"))
-        self.assertFalse(results().in_range("s", "gaussians"))
+        self.assertEqual(self.verdict(a=[1, 1], b=[1]), "holds")
+        self.assertEqual(self.verdict(a=[1, 1], b=[1, 0]), "holds on a")
+        self.assertEqual(self.verdict(a=[1], b=[0, 1], c=[1, 1]), "holds on a, c")
+        self.assertEqual(self.verdict(a=[1, 0], b=[1, 1, 1, 0]), "does not hold")
 
     def test_bounds(self):
         for value, text, unit, good in ((0.81, ">80", "%", True), (0.8, ">80", "%", False), (0.99, "<1", "×", True),
@@ -80,7 +71,11 @@ class Files(unittest.TestCase):
         self.assertEqual([row["quantity"] for row in rows], list(claims.CLAIMS))
         for row in rows:
             self.assertIn(row["value"][0], "<>", row["quantity"])
-            self.assertTrue(claims.tried(self.stored, row)[0], row["quantity"])
+            scenes = {point.scene for point in claims.tried(self.stored, row)[0]}
+            # A comparison with the flat has no point in it, and no pixel of garden-crop ends early.
+            few = {"gain outdoors over gain indoors": {"garden", "landscape"},
+                   "redundancy in time, 1024 over 16 PEs": set(claims.SCENES) - {"garden-crop"}}
+            self.assertEqual(scenes, few.get(row["quantity"], set(claims.SCENES)), row["quantity"])
 
     def test_all_runs_are_stored(self):
         heights = {name.lower(): height for name, height in figures.HEIGHTS.items()}

@@ -72,6 +72,15 @@ class Files(unittest.TestCase):
                 else:
                     self.assertTrue(row["note"], f"{place}: says nowhere why no study stands beside it")
 
+    def test_peak_throughput(self):
+        """Table III rounds what 8 operations of a PE in every cycle of 1 GHz are in 10^12 per second."""
+        peaks = {int(row["pes"]): float(row["value"]) for row in figures.published()
+                 if row["quantity"] == "peak throughput"}
+        self.assertEqual(sorted(peaks), [16, 64, 256, 1024])
+        for pes, tops in peaks.items():
+            # The last row rounds the whole product down.
+            self.assertLessEqual(abs(pes * 8e9 / 1e12 - tops), 0.05 if pes < 1024 else 0.2, pes)
+
     def test_a_point_names_one_resolution_of_its_study(self):
         for value in figures.all_values():
             heights = {str(HEIGHTS[name]) for name in study_resolutions(value.study).split(",")}

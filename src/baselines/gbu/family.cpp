@@ -22,8 +22,9 @@ constexpr std::array<SharesOfSram, 4> kColumns{{{16, 6144, 8192, 2, 4},
                                                 {64, 32768, 15360, 2, 4},
                                                 {256, 131072, 61440, 1, 8},
                                                 {1024, 262144, 32768, 1, 4}}};
-// Rows per cycle of the one scheduler of Table I, which its engines share [assumed].
-constexpr int kRowsOfScheduler = 8;
+// Rows per cycle of Row Generation: 8 are taken to fit the Scheduler of Table I, which one or two
+// engines share; each engine of a larger design has as many as one of two [assumed].
+constexpr int kRowsOfScheduler = 8, kLeastRows = 4;
 
 // Bytes on the straight line through both columns on logarithmic axes; beyond the columns as the
 // PEs.
@@ -54,7 +55,7 @@ void Config::scale_to(int pes) {
     tile_size = family_tile(pes);
     engines.row_pes = tile_size;
     engines.count = pes / tile_size;
-    engines.rows_per_cycle = std::max(1, kRowsOfScheduler / engines.count);
+    engines.rows_per_cycle = std::max(kLeastRows, kRowsOfScheduler / engines.count);
     reuse_cache.bytes = between(pes, low, high, &SharesOfSram::cache_bytes);
     const int chunks = sorting.count * sorting.chunk * traffic.list_entry_bytes;
     list_buffer.bytes = std::max(chunks, between(pes, low, high, &SharesOfSram::list_bytes));

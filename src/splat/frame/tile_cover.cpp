@@ -193,10 +193,9 @@ const std::vector<const char*>& tile_mode_names() {
 }
 
 const char* const kTileModesDoc =
-    "tiles that list a splat; exact: those that the ellipse touches [assumed]; square: those of "
-    "the 3-sigma square of the "
-    "reference code; box: those of its axis-aligned 3-sigma box (paper, Sec. II-A); tight: those "
-    "of the box of the ellipse";
+    "tiles that list a splat; box: those of its axis-aligned 3-sigma box (paper, Sec. II-A); "
+    "exact: those that the ellipse touches; tight: those of the box of the ellipse; square: those "
+    "of the 3-sigma square of the reference code";
 
 void cover_tiles(const ProjectedSplat& splat, const TileGrid& grid, TileMode mode,
                  std::vector<TileRun>& runs) {

@@ -104,10 +104,11 @@ TEST(TableTwo, AreaFollowsItsColumns) {
     EXPECT_NEAR(bill_of("degs-256-tuned", table).area_mm2(), 6.56, 5e-4);
     EXPECT_NEAR(bill_of("degs-1024-tuned", table).area_mm2(), 21.25, 5e-4);
     EXPECT_NEAR(bill_of("degs-64").area_mm2(), bill_of("degs-64", table).area_mm2(), 1e-9);
-    for (const int pes : {16, 64, 256, 1024}) {
+    // Rows per cycle of all engines of GBU, for 8 of which Table I has 0.24 mm2.
+    for (const auto& [pes, rows] : {std::pair(16, 8), {64, 8}, {256, 16}, {1024, 32}}) {
         const std::string n = std::to_string(pes);
         EXPECT_NEAR(bill_of("gscore-" + n).area_mm2(), 0.89 + 3.06 * pes / 64, 1e-9);
-        EXPECT_NEAR(bill_of("gbu-" + n).area_mm2(), 1.13 + 3.31 * pes / 64, 0.005);
+        EXPECT_NEAR(bill_of("gbu-" + n).area_mm2(), 1.13 + 3.31 * pes / 64 + 0.03 * (rows - 8), 0.005);
         EXPECT_NEAR(bill_of("gcc-" + n).area_mm2(), 0.72 + 1.97 * pes / 64, 1e-9);
     }
 }

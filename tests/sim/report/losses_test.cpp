@@ -107,17 +107,17 @@ TEST(Losses, TheLatencyOfTheBusSaysNothingAboutLpddr5) {
 }
 
 TEST(Losses, ATinyPackingBufferLeavesNoChoice) {
-    const std::string filled = "scheduler.queue_segments_per_pe=0";
+    const std::string filled = "scheduler.queue_segments_per_pe=0", lists = "pipeline.tiles=exact";
     const std::string line =
-        losses_of_run("degs-64", kObject, {filled, "packing.bytes=3840"}, kSmall);
+        losses_of_run("degs-64", kObject, {lists, filled, "packing.bytes=3840"}, kSmall);
     expect_first(line, "conflict", "raise packing.bytes");
     EXPECT_NE(line.find("starved"), std::string::npos) << line;
     EXPECT_EQ(line.find("raise scheduler.queue_segments_per_pe"), std::string::npos) << line;
     const std::string better =
-        losses_of_run("degs-64", kObject, {filled, "packing.bytes=32768"}, kSmall);
+        losses_of_run("degs-64", kObject, {lists, filled, "packing.bytes=32768"}, kSmall);
     EXPECT_LT(share_of(better, "conflict"), share_of(line, "conflict") / 2) << better;
     // Where the keys limit the segments and packets, bytes move nothing.
-    const std::string plain = losses_of_run("degs-64", kObject, {}, kSmall);
+    const std::string plain = losses_of_run("degs-64", kObject, {lists}, kSmall);
     EXPECT_EQ(plain.find("packing.bytes"), std::string::npos) << plain;
 }
 

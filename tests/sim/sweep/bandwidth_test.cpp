@@ -271,7 +271,8 @@ std::string designs(const std::vector<std::string>& names, const std::string& mo
 }
 
 TEST(LimitedBy, MemoryIsWhereBandwidthGains) {
-    expect_ranked(doubled(designs({"degs-64", "degs-256", "gscore-64", "gbu-64", "gcc-64"}, "") +
+    expect_ranked(doubled(designs({"degs-64", "degs-256", "gscore-64", "gbu-64", "gcc-64"},
+                                  "    pipeline: {tiles: exact}\n") +
                           "scenes: [\"synthetic:object,gaussians=5000\"]\n"
                           "cameras: [1]\naxes:\n  memory.bandwidth_gb_per_s: 3.2..819.2 x2\n"));
 }

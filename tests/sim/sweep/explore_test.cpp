@@ -51,7 +51,8 @@ TEST(RankCorrelation, IsSpearmans) {
 std::string space(const Folder& folder, const std::string& size = "width: 128\n") {
     const std::string file = folder / "space.yaml";
     std::ofstream(file) << "study: space\ndesigns:\n  - include: " << config("degs-64")
-                        << "\n    name: degs-64\naxes:\n  span.count: [2, 4, 8, 16]\n"
+                        << "\n    name: degs-64\n    pipeline: {tiles: exact}\naxes:\n"
+                           "  span.count: [2, 4, 8, 16]\n"
                            "  array.pes_per_bank: [4, 8, 16]\n  packing.bytes: [x1, x2]\n"
                            "scenes: synthetic:object,gaussians=300\ncameras: [0, 2]\n"
                         << size;

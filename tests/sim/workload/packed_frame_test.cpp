@@ -134,8 +134,8 @@ TEST(HostilePackedFrame, RefusesOptionsAndDesignsThatItDoesNotHold) {
                    "--scene is required");
     expect_mistake(degs({"run", config("degs-64"), "--workload", ""}), "empty name");
     expect_mistake(degs({"run", config("degs-256"), "--workload", file, "--out", folder / "out"}),
-                   "needs a frame of 64 px tiles (exact), fp32, which the workload does not hold; "
-                   "it holds frames of 32 px tiles (exact), fp32.");
+                   "needs a frame of 64 px tiles (box), fp32, which the workload does not hold; "
+                   "it holds frames of 32 px tiles (box), fp32.");
     expect_mistake(degs(with(run, {"--what-if", "tile_size=16"})), "16 px tiles");
     expect_mistake(degs({"run", config("degs-64"), "--workload", file + "x"}), "frame.degswx");
     expect_mistake(degs({"run", config("degs-64"), "--workload", config("degs-64")}),

@@ -19,7 +19,7 @@ struct PipelineConfig {
     Records records = Records::Fp16; ///< how many bytes a Gaussian takes in memory
     bool round_records = false;      ///< are Gaussians rounded to these formats before projection?
     StopRule stop_rule = StopRule::Refuse;
-    TileMode tiles = TileMode::Exact;
+    TileMode tiles = TileMode::Box;
     RenderingRules rules;
     ConfigChanges formats; ///< of the number set that `numbers` names
     void describe(ConfigVisitor& visitor);
