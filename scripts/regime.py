@@ -4,12 +4,10 @@
 
 docs/regime.csv has the real ones. Without an option the views are measured with `degs scene info`; --utilization runs
 three designs on each view. --only TEXT takes the rows whose first word contains TEXT, --gaussians N draws every scene
-with that many Gaussians at most. --figures has the paper's figures on both scenes with camera 1 and a million Gaussians
-each: utilization from 720p to 8K, and latency per mm2 over that of DeGS-64 by bandwidth. --path FILE runs whole
-accelerators with a million Gaussians along 8 views of a camera file, which scripts/camera_path.py moves into the scenes
-that --only names; --quick takes 2 small views of 20 000. --large measures cameras 1 and
-2 of the trained scenes in DEGS_SCENES_LARGE (default ../shared/scenes-large) at 1080p instead. Runs DEGS_PROGRAM
-(default: degs of the search path, else build/release/sim/degs)."""
+with that many Gaussians at most. --path FILE runs whole accelerators with a million Gaussians along 8 views of a camera
+file, which scripts/camera_path.py moves into the scenes that --only names; --quick takes 2 small views of 20 000.
+--large measures cameras 1 and 2 of the trained scenes in DEGS_SCENES_LARGE (default ../shared/scenes-large) at 1080p
+instead. Runs DEGS_PROGRAM (default: degs of the search path, else build/release/sim/degs)."""
 import argparse
 import csv
 import json
@@ -28,12 +26,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = os.environ.get("DEGS_PROGRAM") or shutil.which("degs") or str(ROOT / "build/release/sim/degs")
 LARGE = pathlib.Path(os.environ.get("DEGS_SCENES_LARGE", ROOT / "../shared/scenes-large"))
 DESIGNS = ["degs-64", "degs-1024", "gscore-64"]
-# The banks of degs-1024 with which the real scenes were measured.
+# The lists, and the banks of degs-1024, with which the real scenes were measured.
+LISTS = ["--set", "pipeline.tiles=exact"]
 AS_MEASURED = {"degs-1024": ["--set", "scheduler.segments_per_cycle=8", "--set", "scheduler.issue_width=8"]}
-ARRAYS = [f"{name}-{pes}" for name in ("degs", "gscore", "gbu", "gcc") for pes in ("64", "1024")]
-WHOLE = ["degs-64", "gscore-64", "gbu-64", "gcc-64"]
-RESOLUTIONS = {"720p": 1280, "1080p": 1920, "2k": 2560, "4k": 3840, "8k": 7680}
-SHOWN = ["720p", "2k", "8k"]
 COUNTS = ["visible", "pairs_per_tile", "fragments_per_pixel", "fragments_per_splat", "footprint_p50", "ended",
           "covered", "gini"]
 
@@ -78,7 +73,7 @@ def utilizations_of(row, most):
     result = {}
     for design in DESIGNS:
         with tempfile.TemporaryDirectory() as folder:
-            call("run", str(ROOT / f"configs/{design}.yaml"), *AS_MEASURED.get(design, []),
+            call("run", str(ROOT / f"configs/{design}.yaml"), *LISTS, *AS_MEASURED.get(design, []),
                  "--scene", scene_of(row, most)[0], *size_of(row),
                  "--array-only", "--no-reference", "--no-cache", "--out", folder + "/out")
             report = json.loads(pathlib.Path(folder, "out/report.json").read_text(encoding="utf-8"))
@@ -116,46 +111,6 @@ def print_table(rows, names, measure, relative):
               f"{farthest[2]} |")
 
 
-def compared(designs, scene, resolutions, *more):
-    """Rows of compare.csv by design and width of the image."""
-    with tempfile.TemporaryDirectory() as folder:
-        call("compare", *[str(ROOT / f"configs/{design}.yaml") for design in designs], "--scene", scene, "--camera", "1",
-             "--resolution", resolutions, "--no-reference", "--out", folder + "/out", *more)
-        with open(folder + "/out/compare.csv", encoding="utf-8") as file:
-            return {(row["config"], int(row["width"])): row for row in csv.DictReader(file)}
-
-
-def short_name(scene):
-    """interior of synthetic:interior,gaussians=1000000."""
-    return scene[len("synthetic:"):].split(",")[0]
-
-
-def print_figures(only, gaussians):
-    """Utilization over resolutions, and latency per area over that of DeGS-64 by bandwidth; a cell has both scenes."""
-    scenes = [f"synthetic:{name},gaussians={gaussians or 1_000_000}" for name in ("interior", "garden") if only in name]
-    print(" · ".join(map(short_name, scenes)) + "\n")
-    print("| array alone, % | " + " | ".join(SHOWN) + " |\n| --- |" + " ---: |" * len(SHOWN))
-    found = [compared(ARRAYS, scene, ",".join(SHOWN), "--array-only") for scene in scenes]
-    for design in ARRAYS:
-        cells = [" · ".join(f"{100 * float(rows[design, RESOLUTIONS[name]]['slots.utilization']):.1f}" for rows in found)
-                 for name in SHOWN]
-        print(f"| {design} | {' | '.join(cells)} |", flush=True)
-    print("\n| whole | GB/s | DeGS-64, ms | " + " | ".join(f"{design} ×" for design in WHOLE[1:]) + " |")
-    print("| --- | ---: | ---: |" + " ---: |" * len(WHOLE[1:]))
-    for bandwidth in ("204.8", "51.2"):
-        found = [compared(WHOLE, scene, "720p,4k", "--set", f"memory.bandwidth_gb_per_s={bandwidth}")
-                 for scene in scenes]
-        for name in ("720p", "4k"):
-            columns = [[] for _ in WHOLE]
-            for rows in found:
-                row = {design: rows[design, RESOLUTIONS[name]] for design in WHOLE}
-                cost = {design: float(row[design]["latency_ms"]) * float(row[design]["area_mm2"]) for design in WHOLE}
-                columns[0].append(f"{float(row['degs-64']['latency_ms']):.3f}")
-                for column, design in zip(columns[1:], WHOLE[1:]):
-                    column.append(f"{cost[design] / cost['degs-64']:.2f}")
-            print(f"| {name} | {bandwidth} | {' | '.join(' · '.join(column) for column in columns)} |", flush=True)
-
-
 def print_path(file, only, gaussians, quick):
     """Least, median and largest value over the views of a real path, for each scene and design."""
     most, views, width = (20_000, 2, "320") if quick else (gaussians or 1_000_000, 8, "1920")
@@ -166,7 +121,7 @@ def print_path(file, only, gaussians, quick):
             cameras.write_text(json.dumps(moved_path(file, name, views)), encoding="utf-8")
             call("compare", *[str(ROOT / f"configs/{design}.yaml") for design in DESIGNS], "--scene",
                  f"synthetic:{name},gaussians={most}", "--camera-file", str(cameras), "--camera", "all", "--width",
-                 width, "--no-reference", "--out", folder + "/out")
+                 width, *LISTS, "--no-reference", "--out", folder + "/out")
             with open(folder + "/out/compare.csv", encoding="utf-8") as rows:
                 found = list(csv.DictReader(rows))
         for design in DESIGNS:
@@ -199,7 +154,6 @@ def print_large(only):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--utilization", action="store_true")
-    parser.add_argument("--figures", action="store_true")
     parser.add_argument("--large", action="store_true")
     parser.add_argument("--path", metavar="FILE")
     parser.add_argument("--quick", action="store_true")
@@ -211,9 +165,6 @@ def main():
         return
     if options.path:
         print_path(options.path, options.only, options.gaussians, options.quick)
-        return
-    if options.figures:
-        print_figures(options.only, options.gaussians)
         return
     with open(ROOT / "docs/regime.csv", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if options.only in row["measured"]]

@@ -73,11 +73,6 @@ if(TARGET degs_program)
     degs_all_test(sim/JobArrayOnSlurm COST 60 COMMAND ${here}/sweep/slurm.sh $<TARGET_FILE:degs_program> ${configs})
     degs_all_test(sim/RecipesOfClusters COST 20
                   COMMAND ${here}/sweep/clusters.sh $<TARGET_FILE:degs_program> ${PROJECT_SOURCE_DIR})
-    # The table of a tiled scene, on a small one.
-    degs_all_test(sim/TableOfALargeScene COMMAND ${scripts}/large_scenes.sh
-                  EXPECT "tiled to 600 Gaussians.*gscore . 64 . [0-9.]+ . [0-9.]+ . [0-9.]+ . [0-9.]+ "
-                  ENVIRONMENT ${program} SCENE=synthetic:object,gaussians=200 GAUSSIANS=500 RESOLUTION=720p CAMERA=0
-                  DESIGNS=gscore PES=64)
     # A path of real cameras, on small scenes.
     degs_all_test(sim/TableOfACameraPath COMMAND ${scripts}/regime.py --quick --path ${here}/random/cameras.json
                   EXPECT "interior . degs-64 . [0-9.]+ / [0-9.]+ / [0-9.]+ .*garden . gscore-64 . [0-9.]+ / [0-9.]+ / [0-9.]+ . [0-9.]+ / "

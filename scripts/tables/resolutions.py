@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""PE utilization of arrays alone from 720p to 8K."""
+"""PE utilization of arrays alone from 720p to 4K."""
 from statistics import geometric_mean
 
 from measuring.points import FIVE, run
 from measuring.tables import csv_text, markdown, table
 
-SIZES = {"720p": "720p", "1080p": "1080p", "2K": "2k", "4K": "4k", "8K": "8k"}
-VIEWS = {"2": tuple(SIZES), "1": ("720p", "2K", "8K")}  # sizes by camera
+SIZES = {"720p": "720p", "1080p": "1080p", "2K": "2k", "4K": "4k"}
+VIEWS = {"2": tuple(SIZES), "1": ("720p", "2K")}  # sizes by camera
 OURS = ("degs-16", "degs-64", "degs-256", "degs-1024", "degs-1024-streams", "degs-64-tuned", "degs-256-tuned",
         "degs-1024-tuned")
 BASELINES = tuple(f"{name}-{pes}" for name in ("gscore", "gbu", "gcc") for pes in (16, 64, 256, 1024))
@@ -57,7 +57,7 @@ table("docs/results.md", "resolutions-small-splats", "1")(by_resolution)
 @table("docs/cost.md")
 def cost_of_widths():
     """What more segments of a bank are worth: utilization with them and as shipped, and what that is per area."""
-    sizes = ("1080p", "4K", "8K")
+    sizes = ("1080p", "4K")
     keys = {design: [f"scheduler.{key}={width}" for key in ("issue_width", "segments_per_cycle")]
             for design, width in WIDER.items()}
     found = yield {design: [[arrays(design, FIVE, "2", size, *more), arrays(design, FIVE, "2", size)] for size in sizes]

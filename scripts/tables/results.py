@@ -28,7 +28,7 @@ def percent(report):
 @table(PAGE)
 def results_conditions():
     """Designs of DeGS under the conditions of every page."""
-    two, sizes = ("flowers", "st-peter"), "[sizes](#all-designs-from-720p-to-8k)"
+    two, sizes = ("flowers", "st-peter"), "[sizes](#all-designs-from-720p-to-4k)"
     others, rows = "[own machines](beyond-the-paper.md)", []
     own = beyond.runs({design: (design,) for design in ("degs-64", "degs-64-tuned", "degs-256")}, "alone")
     for camera, size in SIZES.items():

@@ -74,7 +74,7 @@ struct LtStyle {
     double seconds = 0; // of the host
 };
 
-TEST(CodingStyles, CostSpeedAndError) {
+TEST(LongCodingStyles, CostSpeedAndError) {
     DEGS_NEEDS_SCENE("flowers-small");
     const Scene scene = load_scene((scenes() / "flowers-small" / "scene.ply").string());
     Camera camera = select_camera(scene, 2);

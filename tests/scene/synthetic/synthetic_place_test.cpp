@@ -24,7 +24,7 @@ ViewStatistics measure_small(const SyntheticScene& scene, std::size_t which) {
 
 // docs/regime.csv has the ranges of the real scenes: 97 to 100 % covered, 44 to 90 % ended early,
 // 44 to 75 fragments per pixel and 6 to 60 % of the Gaussians visible.
-TEST(SyntheticPlaces, HaveTheCountsOfRealCaptures) {
+TEST(LongSyntheticPlaces, HaveTheCountsOfRealCaptures) {
     for (const char* const profile : {"interior", "garden"}) {
         const SyntheticScene scene = make_synthetic({profile, kFew, 1});
         ASSERT_EQ(scene.cloud.size(), kFew);

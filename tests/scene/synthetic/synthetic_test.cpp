@@ -32,7 +32,7 @@ void expect_within(const std::vector<Band>& bands, const std::vector<Measured>& 
     }
 }
 
-TEST(SyntheticStatistics, ObjectIsLikeSkullStPeterAndGuitar) {
+TEST(LongSyntheticStatistics, ObjectIsLikeSkullStPeterAndGuitar) {
     expect_within(test::kObjectBands, measure_all(load_scene("synthetic:object")));
 }
 
@@ -72,7 +72,7 @@ TEST(LongSyntheticStatistics, LighthouseHasTheGaussiansOfFlowersAndSeal) {
     }
 }
 
-TEST(SyntheticStatistics, DenseHasLongListsInEveryView) {
+TEST(LongSyntheticStatistics, DenseHasLongListsInEveryView) {
     const Scene scene = load_scene("synthetic:dense");
     for (const Camera& camera : scene.cameras) {
         const ViewStatistics view = measure_view(scene.cloud, camera);
@@ -119,7 +119,7 @@ TEST(LongSyntheticStatistics, LandscapeHasListsLikeBicycleAndGarden) {
     EXPECT_LT(mean, 254 * kTolerance);
 }
 
-TEST(SyntheticStatistics, CoverageDoesNotDependOnTheNumberOfGaussians) {
+TEST(LongSyntheticStatistics, CoverageDoesNotDependOnTheNumberOfGaussians) {
     for (const char* const profile : {"object", "outdoor", "uniform"}) {
         const auto overview = [&](std::uint64_t gaussians) {
             const SyntheticScene scene = make_synthetic({profile, gaussians, 1});

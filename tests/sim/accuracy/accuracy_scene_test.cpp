@@ -23,7 +23,7 @@ json accuracy_of_scenes(const Folder& folder, std::vector<std::string> arguments
     return json::parse(read_file(folder / "out/accuracy.json"));
 }
 
-TEST(AccuracyScenes, ARowPerSceneResolutionAndSet) {
+TEST(LongAccuracyScenes, ARowPerSceneResolutionAndSet) {
     const Folder folder;
     const json rows = accuracy_of_scenes(
         folder, {"--scene", std::string(kAccuracyScene) + ",synthetic:single", "--camera", "1",

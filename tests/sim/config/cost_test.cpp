@@ -330,7 +330,7 @@ TEST_P(SmallRunEnergy, OfTheArrayAloneLeavesOutWhatWasNotBuilt) {
     EXPECT_GT(energy["total_nj"].get<double>(), 0);
 }
 
-TEST(EnergyOfBinning, IsLeftOutOfTheArrayAlone) {
+TEST(LongEnergyOfBinning, IsLeftOutOfTheArrayAlone) {
     for (const char* design : {"degs-64", "gscore-64", "gbu-64", "orange-o1"}) {
         SCOPED_TRACE(design);
         for (const bool alone : {false, true}) {
@@ -361,7 +361,7 @@ TEST(SmallRunEnergyOfMemory, IsThatOfItsCommandsIfItHasThem) {
 }
 
 // The constants of the bus are fitted to LPDDR5 on trained views; docs/cost.md states the spread.
-TEST(EnergyOfTheBus, IsThatOfLpddr5OnTrainedViews) {
+TEST(LongEnergyOfTheBus, IsThatOfLpddr5OnTrainedViews) {
     const fs::path scenes = trained_scenes();
     if (!fs::exists(scenes / "garden-crop")) {
         GTEST_SKIP() << "The trained scenes are not in " << scenes << "; set DEGS_SCENES";

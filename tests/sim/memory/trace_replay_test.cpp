@@ -165,7 +165,7 @@ TEST(SmallRunReplay, CountsFromTheFirstRequest) {
 }
 
 // The case of docs/memory.md, in which memory limits the frame.
-TEST(MemoryTrace, TakesTheTimeOfAFrameThatMemoryLimits) {
+TEST(LongMemoryTrace, TakesTheTimeOfAFrameThatMemoryLimits) {
     const fs::path scene = trained_scenes() / "flowers" / "scene.ply";
     if (!fs::exists(scene)) {
         GTEST_SKIP() << "the trained scene flowers is not in " << trained_scenes();

@@ -109,7 +109,7 @@ TEST(LongScenes, GbuMatchesTheReference) {
 }
 
 // Records of 27 B keep the image; in FP16 their means alone cost 40 dB.
-TEST(Scenes, RoundedRecordsCostWhatTheyLeaveOut) {
+TEST(LongScenes, RoundedRecordsCostWhatTheyLeaveOut) {
     DEGS_NEEDS("flowers");
     const auto rounded = [](const char* scene, const char* records) {
         return psnr(report_of("gscore-64", scene, 2,
@@ -166,7 +166,7 @@ TEST(Scenes, MorePesFinishEarlierAndIdleMore) {
     }
 }
 
-TEST(Scenes, HalvingABufferNeverHelps) {
+TEST(LongScenes, HalvingABufferNeverHelps) {
     DEGS_NEEDS("flowers");
     const json whole = report_of("degs-64", "flowers", 1, {"--no-reference", "--width", "360"});
     for (const char* half : {"gaussian_buffer.bytes=36864", "span_buffer.bytes=1024",

@@ -54,7 +54,7 @@ void kill_by_turns(const std::vector<std::string>& first, const std::vector<std:
 }
 
 // The goals of the document are those of the table and of the picture, or there is no document.
-TEST(WholeResults, OfASearchThatIsKilled) {
+TEST(LongWholeResults, OfASearchThatIsKilled) {
     const Folder folder;
     const std::string file = space_of_eight(folder);
     const std::string out = folder / "o";
@@ -75,7 +75,7 @@ TEST(WholeResults, OfASearchThatIsKilled) {
     });
 }
 
-TEST(WholeResults, OfASweepThatIsKilled) {
+TEST(LongWholeResults, OfASweepThatIsKilled) {
     const Folder folder;
     const std::string file = space_of_eight(folder);
     const std::string out = folder / "o";

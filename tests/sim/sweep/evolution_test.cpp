@@ -262,7 +262,7 @@ TEST(Evolution, GoesOnAfterItWasKilled) {
 }
 
 // A folder shows nothing of runs that are not those of its results.
-TEST(SearchFiles, GoWithTheResultsThatTheyTellOf) {
+TEST(LongSearchFiles, GoWithTheResultsThatTheyTellOf) {
     const Folder folder;
     const std::string file = two_view_space(folder);
     const std::string out = folder / "out";

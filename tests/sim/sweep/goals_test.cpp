@@ -360,7 +360,7 @@ TEST(ExploreGoals, FindsTheFrontOfThreeWithinLimits) {
     EXPECT_EQ(cells_of(folder / "a/results.csv")[0].back(), "within");
 }
 
-TEST(ExploreGoals, StandInAStudyToo) {
+TEST(LongExploreGoals, StandInAStudyToo) {
     const Folder folder;
     const std::string file =
         small_space(folder, "goals: [latency_ms, \"max:fps/area_mm2\"]\nlimits: area_mm2<=0.1\n");

@@ -125,7 +125,7 @@ pid_t started_part(const Words& arguments) {
     return child;
 }
 
-TEST(SearchParts, AgreeWithOneProcessAfterOneWasKilled) {
+TEST(LongSearchParts, AgreeWithOneProcessAfterOneWasKilled) {
     const Folder folder;
     const std::string file = two_view_space(folder);
     EXPECT_EQ(degs(search_words(file, folder / "whole", kEvolution)).code, 0);

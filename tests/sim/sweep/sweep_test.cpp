@@ -216,7 +216,7 @@ TEST(SweepRuns, SurviveBeingKilled) {
 
 // The buffers of Table I from a quarter to four times their size on two scenes: the table, the
 // plots and the area come from the shipped study and one command.
-TEST(SweepCommand, AnArchitectsAfternoon) {
+TEST(LongSweepCommand, AnArchitectsAfternoon) {
     const Folder folder;
     const Outcome outcome =
         sweep(config("studies/buffers"), folder / "o",

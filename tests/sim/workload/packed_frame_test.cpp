@@ -62,7 +62,7 @@ void expect_equal(const Results& of_scene, Results of_file, const std::string& f
     EXPECT_TRUE(of_file.image == of_scene.image);
 }
 
-TEST(PackedFrame, GivesEveryDesignTheReportOfItsScene) {
+TEST(LongPackedFrame, GivesEveryDesignTheReportOfItsScene) {
     const Words view{"--scene",  "synthetic:outdoor,gaussians=1000",
                      "--width",  "64",
                      "--height", "48",

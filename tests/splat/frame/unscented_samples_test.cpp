@@ -138,7 +138,7 @@ Errors errors_of(const PublishedLens& lens, ProjectionRule rule, double size, do
 
 // Prints the table of docs/rendering-rules.md. Sigma points are nearer to the samples than the
 // Jacobian wherever its error is beyond their scatter.
-TEST(UnscentedMonteCarlo, TableOfErrors) {
+TEST(LongUnscentedMonteCarlo, TableOfErrors) {
     std::printf("| size / depth | angle | linear | unscented | unscented, fisheye |\n");
     for (const double size : {0.01, 0.03, 0.1}) {
         for (const double degrees : {0.0, 30.0, 55.0}) {

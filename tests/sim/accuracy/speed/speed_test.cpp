@@ -35,7 +35,7 @@ std::vector<json> rows_with(const json& speed, const std::string& fidelity,
     return found;
 }
 
-TEST(SpeedCommand, MeasuresEveryFidelityInEveryNumberSet) {
+TEST(LongSpeedCommand, MeasuresEveryFidelityInEveryNumberSet) {
     const Folder folder;
     const json speed = speed_of(folder, {std::string(DEGS_CONFIGS) + "/degs-64.yaml", "--seeds",
                                          "2", "--fidelities", "strict,exact,within:5%"});
