@@ -28,13 +28,14 @@ MEASURED = ROOT / "docs/coverage.csv"
 COLUMNS = ["design", "scene", "camera", "resolution", "seed", "exact", "sampled", "low", "high", "tiles"]
 KEYS = COLUMNS[:5]
 CAMERAS = ("2", "1")
+LISTS = ["--set", "pipeline.tiles=exact"]  # with which docs/coverage.csv was measured
 PATIENCE = 4  # refusals in a row after which a design is not asked again at a resolution
 
 
 def report_of(design, scene, camera, resolution, more):
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([PROGRAM, "run", ROOT / f"configs/{design}.yaml", "--scene", SCENES / scene / "scene.ply",
-                        "--camera", camera, "--resolution", resolution, "--no-reference", "--out", folder, *more],
+                        "--camera", camera, "--resolution", resolution, "--no-reference", "--out", folder, *LISTS, *more],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         return json.loads((Path(folder) / "report.json").read_text())
 

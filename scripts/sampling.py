@@ -22,6 +22,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = os.environ.get("DEGS_PROGRAM", str(ROOT / "build/release/sim/degs"))
 SCENES = pathlib.Path(os.environ.get("DEGS_SCENES", str(ROOT / "../shared/scenes")))
+LISTS = ["--set", "pipeline.tiles=exact"]  # with which the tables of docs/sampling.md were measured
 
 
 def run(config, view, resolution, more):
@@ -30,7 +31,7 @@ def run(config, view, resolution, more):
     scene, camera = view.split(":")
     with tempfile.TemporaryDirectory() as folder:
         command = [PROGRAM, "run", str(ROOT / "configs" / (name + ".yaml")), "--scene",
-                   str(SCENES / scene / "scene.ply"), "--camera", camera, "--no-reference", "--out", folder]
+                   str(SCENES / scene / "scene.ply"), "--camera", camera, "--no-reference", "--out", folder, *LISTS]
         command += ["--resolution", resolution] if resolution else []
         for override in overrides:
             command += ["--set", override]

@@ -19,7 +19,7 @@ MEMORY_SHARE = 0.05  # of its energy, with which the joint reading is consistent
 PAPER = {"latency": (6.02, 2.44, 1.82), "throughput": (7.25, 2.36, 2.82), "energy": (4.42, 3.32, 1.59)}
 SIZES = (16, 1024)  # of which the paper gives means
 RESOLUTIONS = {"720p": "720p", "1080p": "1080p", "2K": "2k", "4K": "4k", "8K": "8k"}
-SPEEDUPS = {"gscore": ("GSCore", 6.28, 34.8, 7.1), "gbu": ("GBU", 8.47, 84.7, 18.7)}  # Sec. I: 16 to 1024 PEs, in percent
+SPEEDUPS = {"gscore": ("GSCore", 6.28, 34.8, 7.1), "gbu": ("GBU", 8.47, 84.7, 18.7)}  # Sec. I, percent
 
 
 @dataclasses.dataclass(frozen=True)

@@ -108,7 +108,8 @@ TEST(TableTwo, AreaFollowsItsColumns) {
     for (const auto& [pes, rows] : {std::pair(16, 8), {64, 8}, {256, 16}, {1024, 32}}) {
         const std::string n = std::to_string(pes);
         EXPECT_NEAR(bill_of("gscore-" + n).area_mm2(), 0.89 + 3.06 * pes / 64, 1e-9);
-        EXPECT_NEAR(bill_of("gbu-" + n).area_mm2(), 1.13 + 3.31 * pes / 64 + 0.03 * (rows - 8), 0.005);
+        EXPECT_NEAR(bill_of("gbu-" + n).area_mm2(), 1.13 + 3.31 * pes / 64 + 0.03 * (rows - 8),
+                    0.005);
         EXPECT_NEAR(bill_of("gcc-" + n).area_mm2(), 0.72 + 1.97 * pes / 64, 1e-9);
     }
 }

@@ -24,7 +24,8 @@ std::vector<std::string> small_run(const std::string& name, const std::string& o
 
 const std::vector<std::string> kFed{"--set", "memory.bandwidth_gb_per_s=409.6"};
 
-/// A small run with twice the memory, so that it stays below the share of its peak that a sample allows.
+/// A small run with twice the memory, so that it stays below the share of its peak that a sample
+/// allows.
 std::vector<std::string> fed_run(const std::string& name, const std::string& out,
                                  const std::vector<std::string>& more) {
     std::vector<std::string> words = small_run(name, out, kFed);
