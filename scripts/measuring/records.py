@@ -69,10 +69,8 @@ def differences(probe):
 
 
 def check(tables, jobs):
-    """(what is stale or has no record, what could not be tried) of some tables: sentences."""
-    kept, untried = read(), []
-    stale = [f"{table.place}: the table {name} was never measured: scripts/measure.py {name}"
-             for name, table in tables.items() if name not in kept["tables"]]
+    """(what is stale, what could not be tried, what has no record) of some tables: sentences."""
+    kept, stale, untried = read(), [], []
     entries = {name: kept["tables"][name] for name in tables if name in kept["tables"]}
     used = {entry["probe"] for entry in entries.values()}
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
@@ -92,4 +90,4 @@ def check(tables, jobs):
             if reasons:
                 stale.append(f"{entry['place']}: the table {name} is stale: {'; '.join(reasons[:3])}. "
                              f"Measure it anew: scripts/measure.py {name}")
-    return stale, untried
+    return stale, untried, [name for name in tables if name not in entries]

@@ -4,7 +4,6 @@ from statistics import geometric_mean
 
 from measuring.points import FIVE, run
 from measuring.tables import markdown, table
-from tables import beyond
 from tables.resolutions import arrays, useful
 
 PAGE = "docs/results.md"
@@ -29,8 +28,7 @@ def percent(report):
 def results_conditions():
     """Designs of DeGS under the conditions of every page."""
     two, sizes = ("flowers", "st-peter"), "[sizes](#all-designs-from-720p-to-4k)"
-    others, rows = "[own machines](beyond-the-paper.md)", []
-    own = beyond.runs({design: (design,) for design in ("degs-64", "degs-64-tuned", "degs-256")}, "alone")
+    rows = []
     for camera, size in SIZES.items():
         alone = {design: arrays(design, FIVE, camera, size) for design in DESIGNS}
         behind = {design: [whole(design, scene, camera) for scene in FIVE]
@@ -38,7 +36,6 @@ def results_conditions():
         ends = {design: arrays(design, two, camera, "1080p") for design in ("degs-16", "degs-1024")}
         rows += [("five", camera, size, "array alone", alone, sizes),
                  ("five", camera, size, "whole", behind, "[scenes](#by-scene)"),
-                 ("five others", camera, size, "array alone", {design: own[design][camera] for design in own}, others),
                  ("two", camera, "1080p", "array alone", ends, "[readings](readings.md)")]
     found = yield [points for *_, points, _ in rows]
     return markdown(["scenes", "camera", "image", "", "tables", *DESIGNS],

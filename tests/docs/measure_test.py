@@ -112,9 +112,14 @@ class Measure(unittest.TestCase):
         self.set("cycles", "1000001")
         (self.folder / "kept").rename(self.folder / "of the build before")
         self.make({"second": tables["second"]})
-        stale = self.records.check(tables, 2)[0]
+        stale = self.records.check({name: tables[name] for name in ("second", "later")}, 2)[0]
         self.assertEqual(len(stale), 1)
         self.assertIn("the table later is stale", stale[0])
+
+    def test_a_table_without_a_record_is_named(self):
+        self.make({"later": self.all["later"]})
+        self.assertEqual(self.stale(), [])
+        self.assertEqual(self.records.check(self.all, 2)[2], ["double"])
 
     def test_a_part_of_the_tables_can_be_checked(self):
         self.make()
