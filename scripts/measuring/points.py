@@ -192,7 +192,7 @@ def depends_on(point):
     if point.kind == "sweep":
         file, study = study_of(point.source)
         yield file.read_text(encoding="utf-8")
-        for name in set(included(study)):
+        for name in sorted(set(included(study))):
             yield content(str(file.parent / name))
     for design in point.designs():
         yield values_of(*design)

@@ -89,6 +89,17 @@ class Measure(unittest.TestCase):
         self.assertEqual(self.runs(), 2)
         self.assertEqual(self.stale(), [])
 
+    def test_a_study_is_found_again_by_another_process(self):
+        """The texts that a study depends on come in one order, whatever the seed of the hashes is."""
+        studies = self.folder / "configs/studies"
+        studies.mkdir(parents=True)
+        names = [f"{letter}.yaml" for letter in "hdbfacge"]
+        for name in names:
+            (studies / name).write_text(name)
+        (studies / "s.yaml").write_text("designs: [" + ", ".join(f"{{include: {name}}}" for name in names) + "]\n")
+        texts = list(self.points.depends_on(self.points.sweep("s")))
+        self.assertEqual(texts[1:9], [self.points.content(str(studies / name)) for name in sorted(names)])
+
     def test_a_changed_number_of_the_model_names_the_tables(self):
         self.make()
         self.set("cycles", "1000001")
