@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""PE utilization of arrays alone from 720p to 4K."""
+"""PE utilization of arrays alone from 720p to 2K."""
 from statistics import geometric_mean
 
 from measuring.points import FIVE, run
 from measuring.tables import csv_text, markdown, table
 
 SIZES = {"720p": "720p", "1080p": "1080p", "2K": "2k", "4K": "4k"}
-VIEWS = {"2": ("720p", "1080p", "4K"), "1": ("720p",)}  # sizes by camera
+VIEWS = {"2": ("720p", "1080p", "2K"), "1": ("720p",)}  # sizes by camera
 OURS = ("degs-16", "degs-64", "degs-256", "degs-1024", "degs-1024-streams", "degs-64-tuned", "degs-256-tuned",
         "degs-1024-tuned")
 BASELINES = tuple(f"{name}-{pes}" for name in ("gscore", "gbu", "gcc") for pes in (16, 64, 256, 1024))

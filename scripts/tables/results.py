@@ -27,7 +27,7 @@ def percent(report):
 @table(PAGE)
 def results_conditions():
     """Designs of DeGS under the conditions of every page."""
-    two, sizes = ("flowers", "st-peter"), "[sizes](#all-designs-from-720p-to-4k)"
+    two, sizes = ("flowers", "st-peter"), "[sizes](#all-designs-from-720p-to-2k)"
     rows = []
     for camera, size in SIZES.items():
         alone = {design: arrays(design, FIVE, camera, size) for design in DESIGNS}
