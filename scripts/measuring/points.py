@@ -191,9 +191,10 @@ def depends_on(point):
         yield content(scene_file(point.scene))
     if point.kind == "sweep":
         file, study = study_of(point.source)
-        yield file.read_text(encoding="utf-8")
-        for name in sorted(set(included(study))):
-            yield content(str(file.parent / name))
+        yield json.dumps(study, sort_keys=True)
+        designs = {design["include"] for design in study["designs"]}
+        for name in sorted(set(included(study)) - designs):
+            yield json.dumps(yaml.safe_load((file.parent / name).read_text(encoding="utf-8")), sort_keys=True)
     for design in point.designs():
         yield values_of(*design)
     for word in point.options:

@@ -95,10 +95,16 @@ class Measure(unittest.TestCase):
         studies.mkdir(parents=True)
         names = [f"{letter}.yaml" for letter in "hdbfacge"]
         for name in names:
-            (studies / name).write_text(name)
-        (studies / "s.yaml").write_text("designs: [" + ", ".join(f"{{include: {name}}}" for name in names) + "]\n")
+            (studies / name).write_text(f"rate: {name}")
+        (studies / "s.yaml").write_text("designs: []\nmemories: [" +
+                                        ", ".join(f"{{include: {name}}}" for name in names) + "]\n")
         texts = list(self.points.depends_on(self.points.sweep("s")))
-        self.assertEqual(texts[1:9], [self.points.content(str(studies / name)) for name in sorted(names)])
+        self.assertEqual(texts[1:9], [f'{{"rate": "{name}"}}' for name in sorted(names)])
+        # A comment changes nothing, a value does.
+        (studies / "a.yaml").write_text("# words\nrate: a.yaml")
+        self.assertEqual(list(self.points.depends_on(self.points.sweep("s"))), texts)
+        (studies / "a.yaml").write_text("rate: 2")
+        self.assertNotEqual(list(self.points.depends_on(self.points.sweep("s"))), texts)
 
     def test_a_changed_number_of_the_model_names_the_tables(self):
         self.make()

@@ -11,7 +11,7 @@ import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-from tables import ratios  # noqa: E402
+from tables import figures, ratios  # noqa: E402
 
 
 def report(ms, mm2, total=10, dram=4):
@@ -43,6 +43,22 @@ class Ratios(unittest.TestCase):
         # 100 units, 20 of them fixed: with the others 8 times as fast 30 are left.
         self.assertAlmostEqual(ratios.fixed(8, 100 / 30), 0.2)
         self.assertAlmostEqual(ratios.fixed(64, 64), 0)
+
+
+class Published(unittest.TestCase):
+    def test_values_are_those_of_the_list(self):
+        """docs/published.csv has every number of the paper; the page repeats some of them."""
+        listed = {row["quantity"]: row["value"] for row in figures.published()}
+        words = {"latency": "latency", "throughput": "throughput", "energy": "energy efficiency"}
+        for measure, values in ratios.PAPER.items():
+            for name, value in zip(ratios.BASELINES.values(), values):
+                self.assertEqual(float(listed[f"{words[measure]} per mm² of DeGS over {name}"]), value)
+        for title, speedup, small, large in ratios.SPEEDUPS.values():
+            self.assertEqual(float(listed[f"speed-up of {title} from 16 to 1024 PEs, 2K"]), speedup)
+            for pes, value in ((16, small), (1024, large)):
+                self.assertEqual(float(listed[f"PE utilisation of {title}, {pes} PEs, 2K"]), value)
+        means = [listed[f"PE utilisation of DeGS, {pes} PEs, mean (ours 2K)"] for pes in ratios.SIZES]
+        self.assertEqual(means, list(ratios.MEANS))
 
 
 class Steps(unittest.TestCase):
