@@ -9,7 +9,7 @@ set_target_properties(degs_glm PROPERTIES EXPORT_NAME glm_headers)
 set_target_properties(degs_systemc PROPERTIES EXPORT_NAME systemc)
 set_target_properties(degs_driver PROPERTIES EXPORT_NAME driver)
 # Each stands behind those that it needs.
-set(rooms base config stats cost splat scene riscv tlm dram modules baselines platform)
+set(rooms base config stats cost splat scene tlm dram modules baselines platform)
 foreach(room IN LISTS rooms)
     set_target_properties(degs_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS degs_${room} EXPORT degsTargets COMPONENT degs)
@@ -19,8 +19,7 @@ install(EXPORT degsTargets NAMESPACE degs:: DESTINATION ${package_dir} COMPONENT
 install(DIRECTORY include/degs DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT degs FILES_MATCHING PATTERN "*.hpp")
 install(FILES driver/degs_driver.h driver/degs_registers.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/degs COMPONENT degs)
 install(DIRECTORY driver DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs
-        FILES_MATCHING PATTERN "*.c" PATTERN "*.svd" PATTERN "*.xml"
-        PATTERN "firmware/*")
+        FILES_MATCHING PATTERN "*.c" PATTERN "*.svd" PATTERN "*.xml")
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs)
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs)
 # Component `python`: the package that drives the program, with the designs that it knows by name.

@@ -20,12 +20,12 @@ endfunction()
 
 set(here ${CMAKE_CURRENT_SOURCE_DIR})
 degs_all_test(packaging/Container COMMAND ${here}/packaging/container.sh ${PROJECT_SOURCE_DIR})
-if(DEGS_ALL_TESTS)
-    # Programs in C on the core of RISC-V and on the host.
+if(DEGS_ALL_TESTS AND TARGET rv32)
+    # Programs in C on the core of examples/riscv and on the host.
     add_executable(run_program riscv/run_program.cpp)
-    target_link_libraries(run_program PRIVATE degs::riscv degs_flags)
+    target_link_libraries(run_program PRIVATE rv32 degs_flags)
     degs_all_test(riscv/RandomPrograms COST 5 COMMAND /usr/bin/python3 ${here}/riscv/programs.py
-                  --compare $<TARGET_FILE:run_program> ${PROJECT_SOURCE_DIR}/driver/firmware)
+                  --compare $<TARGET_FILE:run_program> ${PROJECT_SOURCE_DIR}/examples/riscv/firmware)
 endif()
 
 if(DEGS_ALL_TESTS AND TARGET degs_sim)

@@ -10,11 +10,7 @@
 
 namespace {
 
-view to_view(const degs::MemoryScene& scene, std::size_t camera) {
-    if (camera >= scene.views.size()) {
-        throw std::runtime_error("The scene has no camera " + std::to_string(camera) + ".");
-    }
-    const degs::MemoryScene::View& from = scene.views[camera];
+view to_view(const degs::MemoryScene::View& from) {
     view to{};
     to.focal_x = from.focal_x;
     to.focal_y = from.focal_y;
@@ -32,16 +28,16 @@ view to_view(const degs::MemoryScene& scene, std::size_t camera) {
 } // namespace
 
 Loader::Loader(const sc_core::sc_module_name& name, const degs::MemoryScene& scene,
-               const std::vector<std::size_t>& cameras)
+               const std::vector<degs::MemoryScene::View>& views)
     : sc_module(name) {
-    if (cameras.size() > MOST_FRAMES) {
+    if (views.size() > MOST_FRAMES) {
         throw std::runtime_error("The firmware renders at most " + std::to_string(MOST_FRAMES) +
                                  " views.");
     }
     boot_table table{};
     std::uint64_t pixels = 0;
-    for (const std::size_t camera : cameras) {
-        view& each = table.views[table.frames++] = to_view(scene, camera);
+    for (const degs::MemoryScene::View& from : views) {
+        view& each = table.views[table.frames++] = to_view(from);
         pixels = std::max(pixels, std::uint64_t{each.width} * each.height);
     }
     add(std::vector<unsigned char>(sizeof table));

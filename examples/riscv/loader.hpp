@@ -14,10 +14,9 @@ class Loader : public sc_core::sc_module {
 public:
     tlm_utils::simple_initiator_socket<Loader> out{"out"};
 
-    /// `cameras`: positions in the views of the scene. Throws std::runtime_error if there is no
-    /// such view, or the firmware takes no more.
+    /// `views`: what the firmware renders. Throws std::runtime_error if it takes no more.
     Loader(const sc_core::sc_module_name& name, const degs::MemoryScene& scene,
-           const std::vector<std::size_t>& cameras);
+           const std::vector<degs::MemoryScene::View>& views);
     std::uint64_t bytes() const { return memory_.size(); } ///< of the memory that is used
 
 private:

@@ -10,11 +10,9 @@
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"
 #include "sim/simulation/warnings.hpp"
-#include "sim/soc/boot_study.hpp"
 #include "sim/soc/platform_keys.hpp"
 #include "sim/soc/soc_study.hpp"
 #include "sim/text/standard_output.hpp"
-#include "sim/text/words.hpp"
 #include "sim/trace/trace_options.hpp"
 
 namespace degs::sim {
@@ -24,11 +22,6 @@ struct SocOptions {
     std::string config;
     std::vector<std::string> overrides;
     std::string memory;
-    std::string cpu = "host";
-    std::string firmware;
-    double limit_ms = 1000;
-    std::vector<const CLI::Option*> traffic; ///< what a platform that boots does not have
-    const CLI::Option* limit = nullptr;      ///< what only that has
     ViewRequest view;
     std::vector<double> loads;
     int cores = 4;
@@ -61,16 +54,6 @@ RunConfig soc_config(const SocOptions& options, dram::Config& memory) {
     return config;
 }
 
-void refuse_with_riscv(const SocOptions& options) {
-    for (const CLI::Option* option : options.traffic) {
-        if (option->count() > 0) {
-            throw InputError(option->get_name() +
-                             " has no meaning with --cpu riscv, whose platform has the core and "
-                             "the accelerator alone.");
-        }
-    }
-}
-
 /// The view, which has no lens: the registers of an accelerator hold none.
 View loaded_view(const SocOptions& options, const RunConfig& config) {
     View view = load_view(options.view);
@@ -85,42 +68,7 @@ View loaded_view(const SocOptions& options, const RunConfig& config) {
     return view;
 }
 
-void boot(const SocOptions& options) {
-    refuse_with_riscv(options);
-    BootRequest request;
-    request.config = soc_config(options, request.memory);
-    request.limit_ms = options.limit_ms;
-    request.firmware = options.firmware.empty() ? "built in" : options.firmware;
-    request.program = load_firmware(options.firmware);
-    const View view = loaded_view(options, request.config);
-    const OutputFolder out(options.out, {"soc.json", "soc.svg"});
-    const BootResult result = run_boot(request, view);
-    out.replace([&] { out.write_json("soc.json", boot_json(request, view, result)); });
-    print(boot_words(request, view, result));
-    if (!result.fault.empty()) {
-        throw InputError("The firmware has stopped: " + result.fault + ".");
-    }
-    if (result.limited) {
-        throw InputError("The firmware has not ended after " + three_digits(options.limit_ms) +
-                         " ms of simulated time, the limit; --limit-ms sets another one.");
-    }
-    if (!result.ended) {
-        throw InputError("The firmware waits for an interrupt that never comes.");
-    }
-    if (result.status != 0) {
-        throw InputError("The firmware ended with status " + std::to_string(result.status) + ".");
-    }
-}
-
 void run(const SocOptions& options) {
-    if (options.cpu == "riscv") {
-        boot(options);
-        return;
-    }
-    if (!options.firmware.empty() || options.limit->count() > 0) {
-        throw InputError(std::string(options.firmware.empty() ? "--limit-ms" : "--firmware") +
-                         " needs --cpu riscv.");
-    }
     SocRequest request;
     request.config = soc_config(options, request.memory);
     request.loads = loads_of(options, request.memory.peak_gb_per_s());
@@ -147,25 +95,6 @@ void run(const SocOptions& options) {
     print(soc_words(request, view, result));
 }
 
-void add_cpu_options(CLI::App& command, SocOptions& options) {
-    command
-        .add_option("--cpu", options.cpu,
-                    "what drives the accelerator: the simulator as host, or a riscv core that "
-                    "boots firmware and has the memory for itself")
-        ->check(CLI::IsMember({"host", "riscv"}))
-        ->capture_default_str();
-    command
-        .add_option("--firmware", options.firmware,
-                    "ELF executable for --cpu riscv; default: the one that is built in")
-        ->type_name("FILE");
-    options.limit = command
-                        .add_option("--limit-ms", options.limit_ms,
-                                    "simulated time after which firmware of --cpu riscv that has "
-                                    "not ended is given up")
-                        ->check(CLI::Range(1e-3, 1e9))
-                        ->capture_default_str();
-}
-
 void add_traffic_options(CLI::App& command, SocOptions& options) {
     command
         .add_option("--load", options.loads,
@@ -189,9 +118,6 @@ void add_traffic_options(CLI::App& command, SocOptions& options) {
                     "pictures per second of the display; 0: no display")
         ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
-    for (const char* name : {"--load", "--cores", "--pattern", "--reads-per-write", "--refresh"}) {
-        options.traffic.push_back(command.get_option(name));
-    }
 }
 
 } // namespace
@@ -207,11 +133,9 @@ void add_soc_command(CLI::App& program) {
                      "configuration file of the platform's memory (configs/memory/*.yaml); "
                      "default: LPDDR5-6400 of 256 bit")
         ->type_name("FILE");
-    add_cpu_options(*command, *options);
     add_traffic_options(*command, *options);
     add_out_option(*command, options->out, "folder for soc.json and soc.svg");
     add_trace_options(*command, options->trace);
-    options->traffic.push_back(command->get_option("--trace"));
     add_overrides_option(*command, options->overrides);
     command->callback([options] { run(*options); });
 }

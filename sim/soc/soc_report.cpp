@@ -12,26 +12,16 @@
 
 namespace degs::sim {
 
-nlohmann::ordered_json soc_head_json(const std::string& schema, const RunConfig& config,
-                                     const dram::Config& memory, const View& view) {
+nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
+                                const SocResult& result) {
     nlohmann::ordered_json json;
-    json["schema"] = {{"name", schema}, {"version", 1}};
+    json["schema"] = {{"name", "degs-soc"}, {"version", 1}};
     json["tool"] = tool_json();
     json["scene"] = {{"name", view.scene.name}, {"gaussians", view.scene.cloud.size()}};
     json["camera"] = camera_json(view.camera);
-    json["config"] = resolved(config);
-    json["memory"] = {{"name", memory.name}, {"peak_gb_per_s", memory.peak_gb_per_s()}};
-    return json;
-}
-
-std::string soc_heading(const RunConfig& config, const dram::Config& memory, const View& view) {
-    return config.accelerator().name + " · " + view.scene.name + " · " + size_words(view.camera) +
-           " · " + memory.name + ", " + three_decimals(memory.peak_gb_per_s()) + " GB/s";
-}
-
-nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
-                                const SocResult& result) {
-    nlohmann::ordered_json json = soc_head_json("degs-soc", request.config, request.memory, view);
+    json["config"] = resolved(request.config);
+    json["memory"] = {{"name", request.memory.name},
+                      {"peak_gb_per_s", request.memory.peak_gb_per_s()}};
     json["cpu"] = {
         {"cores", request.cores},
         {"pattern", request.pattern == CpuTraffic::Pattern::Stream ? "stream" : "random"},
@@ -72,7 +62,9 @@ std::string soc_words(const SocRequest& request, const View& view, const SocResu
                    three_digits(p.accelerator_gb_per_s), three_digits(p.frame.latency_ns / 1e6),
                    three_digits(p.frame.latency_ns / alone) + "x"});
     }
-    const std::string heading = soc_heading(request.config, request.memory, view) + " · " +
+    const std::string heading = request.config.accelerator().name + " · " + view.scene.name +
+                                " · " + size_words(view.camera) + " · " + request.memory.name +
+                                ", " + three_decimals(request.memory.peak_gb_per_s()) + " GB/s · " +
                                 std::to_string(request.cores) + " cores";
     return visible(heading) + "\n" + table.text() + "pixels  the same under every load · " +
            three_digits(result.psnr_db) + " dB against double precision, 8 bits per channel\n" +

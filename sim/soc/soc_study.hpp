@@ -56,12 +56,6 @@ struct SocResult {
 /// reports an error.
 SocResult run_soc(const SocRequest& request, const View& view);
 
-/// What all results of `degs soc` begin with.
-nlohmann::ordered_json soc_head_json(const std::string& schema, const RunConfig& config,
-                                     const dram::Config& memory, const View& view);
-/// "degs-64 · object · 320×180 · lpddr5-6400x32, 25.6 GB/s"
-std::string soc_heading(const RunConfig& config, const dram::Config& memory, const View& view);
-
 nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
                                 const SocResult& result);
 std::string soc_words(const SocRequest& request, const View& view, const SocResult& result);

@@ -36,7 +36,7 @@ refuse() {
 # may_include ROOM ALLOWED...: of our rooms, files of src/ROOM may include only itself and ALLOWED.
 may_include() {
     local room=$1 other forbidden=()
-    for other in base config stats cost splat scene accuracy riscv tlm dram modules baselines platform sim tests; do
+    for other in base config stats cost splat scene accuracy tlm dram modules baselines platform sim tests; do
         [[ " $* " == *" $other "* ]] || forbidden+=("$other")
     done
     local pattern files
@@ -56,12 +56,11 @@ check_arrows() {
     may_include splat config base
     may_include scene splat config base
     may_include accuracy scene splat config base
-    may_include riscv
     may_include tlm stats config base
     may_include dram tlm stats config base
     may_include modules cost splat dram tlm stats config base
     may_include baselines modules cost splat dram tlm stats config base
-    may_include platform modules cost scene splat riscv dram tlm stats config base
+    may_include platform modules cost scene splat dram tlm stats config base
 }
 
 # What the package installs shows SystemC, TLM and the standard library, and none of our rooms.
@@ -78,7 +77,7 @@ check_units() {
 }
 
 check_systemc() {
-    mapfile -t files < <(sources src/base src/config src/stats src/cost src/splat src/scene src/accuracy src/riscv)
+    mapfile -t files < <(sources src/base src/config src/stats src/cost src/splat src/scene src/accuracy)
     forbid "no SystemC in configuration, costs, mathematics and loaders" \
         '#[[:space:]]*include[[:space:]]*[<"](systemc|tlm|sysc|tlm_utils)([./>"]|$)|\b(sc_core|tlm)::' "${files[@]}"
 }
@@ -152,7 +151,7 @@ check_folders() {
 }
 
 check_licence() {
-    refuse "$(sources src sim tests | xargs -r awk -v line='// SPDX-License-Identifier: Apache-2.0' '
+    refuse "$(sources src sim tests examples | xargs -r awk -v line='// SPDX-License-Identifier: Apache-2.0' '
         FNR == 1 && $0 == line { good[FILENAME] }
         END { for (i = 1; i < ARGC; ++i) if (!(ARGV[i] in good)) print ARGV[i] ":1: the first line must be " line }')"
 }

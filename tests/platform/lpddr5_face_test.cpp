@@ -7,7 +7,6 @@
 
 #include "degs/error.hpp"
 #include "degs/lpddr5.hpp"
-#include "degs/riscv_cpu.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {
@@ -112,12 +111,6 @@ TEST(Lpddr5Face, InitiatorsThatDoNotExistAreRefused) {
     EXPECT_THAT([&] { memory.bytes_read(9); }, refused);
     EXPECT_THAT([&] { memory.bytes_written(9); }, refused);
     EXPECT_THAT([&] { memory.in(9); }, refused);
-}
-
-TEST(RiscvCpuFace, APeriodThatTheResolutionTurnsIntoNothingIsRefused) {
-    sc_core::sc_set_time_resolution(10, sc_core::SC_NS);
-    EXPECT_THAT([] { RiscvCpu cpu("cpu", RiscvProgram{}, sc_core::sc_time(1, sc_core::SC_NS)); },
-                ThrowsMessage<InputError>(AllOf(HasSubstr("cpu: "), HasSubstr("10 ns"))));
 }
 
 } // namespace

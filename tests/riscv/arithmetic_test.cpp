@@ -10,7 +10,7 @@
 
 #include "tests/riscv/machine.hpp"
 
-namespace degs::rv32::test {
+namespace rv32::test {
 namespace {
 
 using Value = std::uint32_t;
@@ -139,4 +139,4 @@ TEST(RiscvUpper, LoadsImmediatesAndAddsThemToThePc) {
 }
 
 } // namespace
-} // namespace degs::rv32::test
+} // namespace rv32::test

@@ -6,7 +6,7 @@
 
 #include "tests/riscv/machine.hpp"
 
-namespace degs::rv32::test {
+namespace rv32::test {
 namespace {
 
 /// A machine whose traps go to kHandler.
@@ -152,4 +152,4 @@ TEST(RiscvMemory, AccessesToNothingTrap) {
 }
 
 } // namespace
-} // namespace degs::rv32::test
+} // namespace rv32::test

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <vector>
 
-#include "riscv/rv32.hpp"
+#include "rv32.hpp"
 
-namespace degs::rv32::test {
+namespace rv32::test {
 
 constexpr std::uint32_t kHandler = 0x3000; ///< where tests let mtvec point
 
@@ -74,4 +74,4 @@ constexpr std::uint32_t j_type(std::uint32_t rd, std::int32_t offset) {
            (i >> 12U & 255U) << 12U | rd << 7U | 0x6FU;
 }
 
-} // namespace degs::rv32::test
+} // namespace rv32::test

@@ -8,12 +8,12 @@
 #include <iterator>
 #include <vector>
 
-#include "riscv/elf.hpp"
-#include "riscv/rv32.hpp"
+#include "elf.hpp"
+#include "rv32.hpp"
 
 namespace {
 
-class Machine : public degs::rv32::Memory {
+class Machine : public rv32::Memory {
 public:
     explicit Machine(const std::vector<unsigned char>& elf) : Machine(elf, 0x20000) {}
     /// The exit code of the program; 99 if it takes more than `steps` instructions.
@@ -26,8 +26,8 @@ public:
 
 private:
     Machine(const std::vector<unsigned char>& elf, std::uint32_t bytes) {
-        const degs::rv32::Program program = degs::rv32::parse_elf(elf, "The program");
-        memory_ = degs::rv32::memory_image(program, bytes, "The program");
+        const rv32::Program program = rv32::parse_elf(elf, "The program");
+        memory_ = rv32::memory_image(program, bytes, "The program");
         memory_.resize(bytes);
         core_.set_pc(program.entry);
     }
@@ -57,7 +57,7 @@ private:
     }
 
     std::vector<unsigned char> memory_;
-    degs::rv32::Core core_{*this};
+    rv32::Core core_{*this};
     bool ended_ = false;
     int status_ = 0;
 };

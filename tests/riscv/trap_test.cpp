@@ -4,7 +4,7 @@
 
 #include "tests/riscv/machine.hpp"
 
-namespace degs::rv32::test {
+namespace rv32::test {
 namespace {
 
 constexpr std::uint32_t kMret = 0x30200073, kWfi = 0x10500073, kNop = 0x13;
@@ -194,4 +194,4 @@ TEST(RiscvWfi, DoesNotSleepWhileTheLineIsHigh) {
 }
 
 } // namespace
-} // namespace degs::rv32::test
+} // namespace rv32::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built program as a child process, and folders and scenes for it.
+// Built programs as child processes, and folders and scenes for them.
 #pragma once
 
 #include <array>
@@ -58,9 +58,9 @@ struct Outcome {
     std::string out, err;
 };
 
-/// Runs the program and waits for it; `prepare` is called in the child before the program starts.
-inline Outcome degs(const std::vector<std::string>& arguments,
-                    const std::function<void()>& prepare = {}) {
+/// Runs a program and waits for it; `prepare` is called in the child before the program starts.
+inline Outcome outcome_of(const char* program, const std::vector<std::string>& arguments,
+                          const std::function<void()>& prepare = {}) {
     const Folder folder;
     const std::string out = folder / "out";
     const std::string err = folder / "err";
@@ -71,17 +71,23 @@ inline Outcome degs(const std::vector<std::string>& arguments,
         if (prepare) {
             prepare();
         }
-        std::vector<char*> argv{const_cast<char*>(DEGS_PROGRAM)};
+        std::vector<char*> argv{const_cast<char*>(program)};
         for (const std::string& argument : arguments) {
             argv.push_back(const_cast<char*>(argument.c_str()));
         }
         argv.push_back(nullptr);
-        ::execv(DEGS_PROGRAM, argv.data());
+        ::execv(program, argv.data());
         ::_exit(127);
     }
     int status = 0;
     ::waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+}
+
+/// Runs the program `degs`.
+inline Outcome degs(const std::vector<std::string>& arguments,
+                    const std::function<void()>& prepare = {}) {
+    return outcome_of(DEGS_PROGRAM, arguments, prepare);
 }
 
 /// What every mistake of a user looks like: exit code 2 and one sentence on stderr, which contains

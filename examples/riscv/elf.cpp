@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riscv/elf.hpp"
+#include "elf.hpp"
 
 #include <elf.h>
 
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 
-#include "degs/error.hpp"
-
-namespace degs::rv32 {
+namespace rv32 {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
 
 void require(bool holds, const std::string& name, const std::string& what) {
     if (!holds) {
-        throw InputError(name + " " + what);
+        throw std::runtime_error(name + " " + what);
     }
 }
 
@@ -91,4 +90,4 @@ Bytes memory_image(const Program& program, std::uint32_t limit, const std::strin
     return memory;
 }
 
-} // namespace degs::rv32
+} // namespace rv32

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riscv/rv32.hpp"
+#include "rv32.hpp"
 
-namespace degs::rv32 {
+namespace rv32 {
 namespace {
 
 enum Opcode : std::uint32_t {
@@ -285,4 +285,4 @@ bool Core::change_csr(const Fields& f) {
     return true;
 }
 
-} // namespace degs::rv32
+} // namespace rv32

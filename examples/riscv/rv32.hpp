@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-namespace degs::rv32 {
+namespace rv32 {
 
 /// What mcause holds after an exception; interrupts have kInterrupt set.
 enum Cause : std::uint32_t {
@@ -109,4 +109,4 @@ private:
     bool waiting_ = false, has_vector_ = false, trapped_without_vector_ = false;
 };
 
-} // namespace degs::rv32
+} // namespace rv32

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace degs::rv32 {
+namespace rv32 {
 
 /// A statically linked program: its bytes and where they lie.
 struct Program {
@@ -19,12 +19,13 @@ struct Program {
 };
 
 /// Reads a 32-bit little-endian RISC-V executable in ELF (System V ABI, chapters 4 and 5). Throws
-/// InputError, a sentence that begins with `name`, if the file is none or passes its own end.
+/// std::runtime_error, a sentence that begins with `name`, if the file is none or passes its own
+/// end.
 Program parse_elf(const std::vector<unsigned char>& file, const std::string& name);
 
-/// The memory from address 0 up to the end of the last segment. Throws InputError, a sentence that
-/// begins with `name`, if that is more than `limit` bytes.
+/// The memory from address 0 up to the end of the last segment. Throws std::runtime_error, a
+/// sentence that begins with `name`, if that is more than `limit` bytes.
 std::vector<unsigned char> memory_image(const Program& program, std::uint32_t limit,
                                         const std::string& name);
 
-} // namespace degs::rv32
+} // namespace rv32

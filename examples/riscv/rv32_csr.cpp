@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riscv/rv32.hpp"
+#include "rv32.hpp"
 
-namespace degs::rv32 {
+namespace rv32 {
 namespace {
 
 constexpr std::uint32_t kIsa = 1U << 30U | 1U << 8U | 1U << 12U; // misa: 32 bits, I and M
@@ -88,4 +88,4 @@ bool Core::write_csr(std::uint32_t csr, std::uint32_t value) {
     }
 }
 
-} // namespace degs::rv32
+} // namespace rv32
