@@ -11,6 +11,7 @@
 #include "base/visible_text.hpp"
 #include "config/input_files.hpp"
 #include "sim/command_line/decimal_numbers.hpp"
+#include "sim/command_line/given_options.hpp"
 #include "sim/command_line/help_text.hpp"
 #include "sim/command_line/stated_command.hpp"
 #include "sim/command_line/suggestion.hpp"
@@ -91,9 +92,8 @@ void add_commands(CLI::App& program) {
     require_decimal_numbers(program);
 }
 
-CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides,
-                            const char* meaning) {
-    return command.add_option("--set", overrides, meaning)
+void add_set_option(CLI::App& command, std::vector<std::string>& overrides, const char* meaning) {
+    command.add_option("--set", overrides, meaning)
         ->type_name("KEY=VALUE")
         ->take_all()
         ->expected(1);
@@ -105,11 +105,10 @@ void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides
     add_set_option(command, overrides, "path.to.key=value overrides the file; may be repeated");
 }
 
-CLI::Option* add_addressed_overrides_option(CLI::App& command,
-                                            std::vector<std::string>& overrides) {
-    return add_set_option(command, overrides,
-                          "path.to.key=value for all designs, NAME:path.to.key=value for one; may "
-                          "be repeated");
+void add_addressed_overrides_option(CLI::App& command, std::vector<std::string>& overrides) {
+    add_set_option(command, overrides,
+                   "path.to.key=value for all designs, NAME:path.to.key=value for one; may be "
+                   "repeated");
 }
 
 int run_program(int argc, char* argv[]) {
@@ -120,7 +119,10 @@ int run_program(int argc, char* argv[]) {
         announce_interruption();
         quieten_kernel();
         add_commands(program);
-        when_parsed(program, state_command);
+        when_parsed(program, [&program](const CLI::App& command) {
+            refuse_combinations(command);
+            state_command(stated_command(program));
+        });
         parse(program, argc, argv);
         return kSuccess;
     } catch (const CLI::ParseError& error) {

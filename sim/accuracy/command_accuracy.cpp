@@ -209,11 +209,6 @@ void run(const AccuracyOptions& options) {
         write_accuracy(out, [&] { return measure_single_gaussians(request); });
         return;
     }
-    if (options.scenes.empty()) {
-        throw InputError(
-            "There is nothing to measure; --scene, --single-gaussian, --hard-cases or --speed is "
-            "needed.");
-    }
     const SceneAccuracyRequest request = scene_request(options);
     const OutputFolder out(options.out, kAccuracyFiles);
     write_accuracy(out, [&] { return measure_scenes(request, out); });
@@ -280,36 +275,31 @@ void add_accuracy_command(CLI::App& program) {
         "accuracy", "measure the error of number formats against double precision");
     command->add_flag("--single-gaussian", options->single_gaussian,
                       "the paper's test: alpha of single Gaussians in a window of 32 x 32 pixels");
-    CLI::Option* hard = command->add_flag(
+    command->add_flag(
         "--hard-cases", options->hard_cases,
         "generated scenes that break renderers, in images of 16:9 (docs/numerical-stability.md)");
     command->add_option("--only", options->only, "hard cases, e.g. H7,H19; all without it")
         ->type_name("NAMES")
         ->delimiter(',')
-        ->take_all()
-        ->needs(hard);
-    CLI::Option* speed =
-        command
-            ->add_option(
-                "--speed", options->speed,
-                "speed of runs of these configurations against their error: every fidelity "
-                "in `ideal`, `fp32` and the numbers of the configuration, or in those of "
-                "--numbers; as FILE or NAME=FILE, several separated by spaces")
-            ->type_name("FILES");
+        ->take_all();
+    command
+        ->add_option("--speed", options->speed,
+                     "speed of runs of these configurations against their error: every fidelity "
+                     "in `ideal`, `fp32` and the numbers of the configuration, or in those of "
+                     "--numbers; as FILE or NAME=FILE, several separated by spaces")
+        ->type_name("FILES");
     command
         ->add_option("--fidelities", options->fidelities,
                      "strict, exact, sampled:10%, within:1%, analytic; several separated by commas")
         ->type_name("NAMES")
         ->delimiter(',')
         ->take_all()
-        ->capture_default_str()
-        ->needs(speed);
+        ->capture_default_str();
     command->add_option("--seeds", options->seeds, "samples of each kind: seeds 1 to this number")
         ->check(CLI::Range(1, 1000))
-        ->capture_default_str()
-        ->needs(speed);
-    add_addressed_overrides_option(*command, options->overrides)->needs(speed);
-    add_memory_option(*command, options->memory)->needs(speed);
+        ->capture_default_str();
+    add_addressed_overrides_option(*command, options->overrides);
+    add_memory_option(*command, options->memory);
     CLI::Option* numbers = command->add_option("--numbers", options->numbers, set_words())
                                ->type_name("NAMES")
                                ->delimiter(',')

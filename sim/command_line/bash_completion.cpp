@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/command_line/bash_completion.hpp"
 
+#include "sim/command_line/completion_rules.hpp"
+
 namespace degs::sim {
 namespace {
 
@@ -34,13 +36,24 @@ std::string sets_of(const OptionEntry& option) {
     return option.value == "COMMAND" ? "words=$commands" : "kind=NONE";
 }
 
-/// The branches of the commands below `command`, for the three cases of the script.
+/// The branches of the commands below `command`, for the cases of the script.
 struct Branches {
     Words paths;
     std::string values;  ///< by command and option in front of the word
     std::string options; ///< by command, if the word begins with '-'
     std::string others;  ///< by command: commands below, or the argument
+    std::string hidden;  ///< by command: what does not go with the options that are there
 };
+
+/// The branch of a command whose options do not all go together.
+std::string hidden_branch(const CommandEntry& command) {
+    std::string tests;
+    for (const LeftOut& each : left_out(command, "@(")) {
+        tests +=
+            "            [[ " + each.test + " ]] && hidden+=' " + strung(each.words, " ") + "'\n";
+    }
+    return tests.empty() ? "" : "        '" + command.path + "')\n" + tests + "            ;;\n";
+}
 
 void add(const CommandEntry& command, Branches& branches) {
     Words names;
@@ -60,6 +73,7 @@ void add(const CommandEntry& command, Branches& branches) {
         }
     }
     branches.options += branch({command.path}, "words='" + strung(names, " ") + "'");
+    branches.hidden += hidden_branch(command);
     Words below;
     for (const CommandEntry& each : command.commands) {
         below.push_back(each.name());
@@ -73,6 +87,11 @@ void add(const CommandEntry& command, Branches& branches) {
 }
 
 constexpr const char* kAnswer = R"(
+    local word kept=
+    for word in $words; do
+        [[ " $hidden " == *" $word "* || " $hidden " == *" $before=$word "* ]] || kept+=" $word"
+    done
+    words=$kept
     local reply
     COMPREPLY=()
     while IFS= read -r reply; do
@@ -145,8 +164,11 @@ std::string bash_completion(const CommandEntry& program, const Words& synthetic)
            "        case $command in\n" +
            branches.others +
            "        esac\n"
-           "    fi\n" +
-           kAnswer;
+           "    fi\n"
+           "    local typed=\" ${COMP_WORDS[*]:1:COMP_CWORD - 1} \" hidden=\n"
+           "    typed=${typed// = / } # bash takes '=' for a word\n"
+           "    case $command in\n" +
+           branches.hidden + "    esac" + kAnswer;
 }
 
 } // namespace degs::sim

@@ -33,14 +33,13 @@ std::string entries(const std::vector<OptionEntry>& options, bool arguments) {
     return text;
 }
 
-/// The path of the command that contains `command`.
-std::string path_above(const CLI::App& command) {
-    const CLI::App* parent = command.get_parent();
-    if (parent == nullptr) {
-        return "";
+/// Which options go together, each rule once.
+std::string combinations(const CommandEntry& command) {
+    std::string text;
+    for (const OptionRule& rule : command.rules) {
+        text += entry(heading(rule, command.path), explanation(rule));
     }
-    const std::string above = path_above(*parent);
-    return above.empty() ? parent->get_name() : above + " " + parent->get_name();
+    return text.empty() ? "" : "\nCombinations:\n" + text;
 }
 
 } // namespace
@@ -61,7 +60,7 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
 }
 
 std::string help_text(const CLI::App& command) {
-    const CommandEntry described = describe(command, path_above(command));
+    const CommandEntry described = describe(command);
     std::string text = wrapped(described.path + ": " + described.meaning, 2, kWidth) +
                        "\nUsage: " + usage(described) + "\n";
     const std::string arguments = entries(described.options, true);
@@ -72,7 +71,7 @@ std::string help_text(const CLI::App& command) {
             text += entry(below.name(), below.meaning);
         }
     }
-    return text + "\nOptions:\n" + entries(described.options, false);
+    return text + "\nOptions:\n" + entries(described.options, false) + combinations(described);
 }
 
 } // namespace degs::sim

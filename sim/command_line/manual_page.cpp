@@ -43,7 +43,7 @@ std::string option_item(const OptionEntry& option) {
            roff(explanation(option)) + "\n";
 }
 
-/// Commands that have commands are introduced by these.
+/// Commands that have commands are introduced by these. The rules of options follow the options.
 void add_command(const CommandEntry& command, std::string& page) {
     for (const CommandEntry& below : command.commands) {
         add_command(below, page);
@@ -52,6 +52,9 @@ void add_command(const CommandEntry& command, std::string& page) {
         page += ".SS \"" + roff(usage(command)) + "\"\n" + roff(command.meaning) + ".\n";
         for (const OptionEntry& option : command.options) {
             page += option_item(option);
+        }
+        for (const OptionRule& rule : command.rules) {
+            page += item(heading(rule, command.path), explanation(rule) + ".");
         }
     }
 }

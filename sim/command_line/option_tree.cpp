@@ -52,15 +52,6 @@ void note(Words& notes, const std::string& before, const std::string& words) {
     }
 }
 
-Words names_of(const std::set<CLI::Option*>& options) {
-    Words names;
-    for (const CLI::Option* option : options) {
-        names.push_back(option->get_name());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 Words notes_of(const CLI::Option& option, const std::string& type) {
     Words notes;
     if (option.get_required()) {
@@ -72,8 +63,6 @@ Words notes_of(const CLI::Option& option, const std::string& type) {
                                   [](char c) { return c == '[' || c == ']' || c == '"'; }),
                    fallback.end());
     note(notes, "default ", fallback);
-    note(notes, "not with ", config_words::list(names_of(option.get_excludes())));
-    note(notes, "only with ", config_words::list(names_of(option.get_needs())));
     return notes;
 }
 
@@ -104,17 +93,31 @@ OptionEntry describe_option(const CLI::Option& option) {
 
 } // namespace
 
-CommandEntry describe(const CLI::App& command, const std::string& above) {
+std::string path_of(const CLI::App& command) {
+    return command.get_parent() == nullptr
+               ? command.get_name()
+               : path_of(*command.get_parent()) + " " + command.get_name();
+}
+
+std::vector<OptionRule> rules_of(const CLI::App& command) {
+    const std::string path = path_of(command);
+    return rules_of(path.substr(path.find(' ') + 1), [&command](const std::string& option) {
+        return command.get_option_no_throw(option) != nullptr;
+    });
+}
+
+CommandEntry describe(const CLI::App& command) {
     CommandEntry entry;
-    entry.path = above.empty() ? command.get_name() : above + " " + command.get_name();
+    entry.path = path_of(command);
     entry.meaning = command.get_description();
     for (const CLI::Option* option : command.get_options()) {
         entry.options.push_back(describe_option(*option));
     }
     std::stable_partition(entry.options.begin(), entry.options.end(),
                           [](const OptionEntry& option) { return option.argument; });
+    entry.rules = rules_of(command);
     for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; })) {
-        entry.commands.push_back(describe(*below, entry.path));
+        entry.commands.push_back(describe(*below));
     }
     return entry;
 }

@@ -7,6 +7,8 @@
 
 #include <CLI/App.hpp>
 
+#include "sim/command_line/option_rules.hpp"
+
 namespace degs::sim {
 
 /// An option, or an argument without a name of its own on the command line.
@@ -15,7 +17,7 @@ struct OptionEntry {
     std::string value;                ///< what follows: "FILE", "INT"; empty: nothing
     std::vector<std::string> choices; ///< the allowed values; empty: any
     std::string meaning;
-    std::vector<std::string> notes; ///< "required", "default 1", "1 to 64", "not with --width"
+    std::vector<std::string> notes; ///< "required", "default 1", "1 to 64"
     bool argument = false;
     bool required = false;
     bool several = false; ///< an argument of several words, an option that may be repeated
@@ -25,13 +27,18 @@ struct CommandEntry {
     std::string path; ///< "degs scene info"
     std::string meaning;
     std::vector<OptionEntry> options; ///< arguments first
+    std::vector<OptionRule> rules;    ///< which of the options go together
     std::vector<CommandEntry> commands;
 
     std::string name() const { return path.substr(path.rfind(' ') + 1); }
 };
 
-/// `command` and all below it; `above` is the path of the command that it belongs to.
-CommandEntry describe(const CLI::App& command, const std::string& above = "");
+/// "degs scene info"
+std::string path_of(const CLI::App& command);
+/// The rules of the options of a command, which are of its name below the program.
+std::vector<OptionRule> rules_of(const CLI::App& command);
+/// `command` and all below it.
+CommandEntry describe(const CLI::App& command);
 
 /// "degs scene info [OPTIONS] SCENE"
 std::string usage(const CommandEntry& command);

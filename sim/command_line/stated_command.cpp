@@ -67,10 +67,10 @@ std::string stated_command(const CLI::App& program) {
     return text;
 }
 
-void when_parsed(CLI::App& program, const std::function<void(const std::string&)>& use) {
+void when_parsed(CLI::App& program, const std::function<void(const CLI::App&)>& use) {
     const std::function<void(CLI::App&)> watch = [&](CLI::App& command) {
         for (CLI::App* below : command.get_subcommands({})) {
-            below->parse_complete_callback([&program, use] { use(stated_command(program)); });
+            below->parse_complete_callback([below, use] { use(*below); });
             watch(*below);
         }
     };

@@ -15,7 +15,7 @@ namespace degs::sim {
 /// same results state the same.
 std::string stated_command(const CLI::App& program);
 
-/// Calls `use` with the stated command before a command begins.
-void when_parsed(CLI::App& program, const std::function<void(const std::string&)>& use);
+/// Calls `use` with the command whose arguments have been parsed, before it begins.
+void when_parsed(CLI::App& program, const std::function<void(const CLI::App&)>& use);
 
 } // namespace degs::sim

@@ -34,12 +34,6 @@ std::vector<std::string> candidates_for(const std::string& word, const CommandEn
     return candidates;
 }
 
-std::string path_of(const CLI::App& command) {
-    return command.get_parent() == nullptr
-               ? command.get_name()
-               : path_of(*command.get_parent()) + " " + command.get_name();
-}
-
 /// The commands that have the option: "run, sweep".
 std::string commands_with(const std::string& option, const CommandEntry& program) {
     std::vector<std::string> names;

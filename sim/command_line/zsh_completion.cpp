@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sim/command_line/completion_rules.hpp"
+
 namespace degs::sim {
 namespace {
 
@@ -37,12 +39,13 @@ std::string function_of(const CommandEntry& command) {
     return name;
 }
 
-/// The message and the action of _arguments for a value or argument.
-std::string action_of(const OptionEntry& option) {
+/// The message and the action of _arguments for a value or argument. Choices are those of the
+/// variable `choices` if it names one.
+std::string action_of(const OptionEntry& option, const std::string& choices = "") {
     const std::string& kind = option.value;
     const std::string message = ":" + (option.argument ? option.names.front() : kind) + ":";
     if (!option.choices.empty()) {
-        return message + "(" + spaced(option.choices) + ")";
+        return message + "(" + (choices.empty() ? spaced(option.choices) : "$" + choices) + ")";
     }
     return message + (kind == "FILE"      ? "_files"
                       : kind == "FOLDER"  ? "_files -/"
@@ -52,9 +55,9 @@ std::string action_of(const OptionEntry& option) {
 }
 
 /// '(-h --help)'{-h,--help}'[Print this help]', or '--width[image width]:INT: '.
-std::string spec_of(const OptionEntry& option) {
+std::string spec_of(const OptionEntry& option, const std::string& choices) {
     const std::string tail = "'[" + escaped(explanation(option), "[]\\") + "]" +
-                             (option.value.empty() ? "" : action_of(option)) + "'";
+                             (option.value.empty() ? "" : action_of(option, choices)) + "'";
     std::string names;
     for (const std::string& name : option.names) {
         names += (names.empty() ? "" : ",") + name;
@@ -70,11 +73,58 @@ std::string argument_spec(const OptionEntry& option) {
     return std::string("'") + (option.several ? "*" : count) + action_of(option) + "'";
 }
 
-/// The lines of _arguments for the options and arguments of a command.
-std::string specs_of(const CommandEntry& command) {
+/// The tests of the command under which an option, or a value of it, is left out.
+ZshWords tests_of(const ZshWords& words, const std::vector<LeftOut>& all) {
+    ZshWords tests;
+    for (const LeftOut& each : all) {
+        if (std::find_first_of(each.words.begin(), each.words.end(), words.begin(), words.end()) !=
+            each.words.end()) {
+            tests.push_back(each.test);
+        }
+    }
+    return tests;
+}
+
+std::string any_of(const ZshWords& tests) {
+    std::string text;
+    for (const std::string& test : tests) {
+        text += (text.empty() ? "[[ " : " || [[ ") + test + " ]]";
+    }
+    return tests.size() > 1 ? "{ " + text + "; }" : text;
+}
+
+/// Lines that fill an array with the choices of an option, of which some may be left out; empty if
+/// none is.
+std::string choice_lines(const OptionEntry& option, const std::string& name,
+                         const std::vector<LeftOut>& all) {
     std::string lines;
+    for (const std::string& choice : option.choices) {
+        const ZshWords tests = tests_of({option.names.front() + "=" + choice}, all);
+        if (!tests.empty()) {
+            lines +=
+                "    " + any_of(tests) + " && " + name + "=(${" + name + ":#" + choice + "})\n";
+        }
+    }
+    return lines.empty() ? ""
+                         : "    local -a " + name + "=(" + spaced(option.choices) + ")\n" + lines;
+}
+
+/// Lines that fill the array `specs` for the options and arguments of a command.
+std::string spec_lines(const CommandEntry& command) {
+    const std::vector<LeftOut> all = left_out(command, "(");
+    std::string lines = "    local -a specs\n";
+    if (!all.empty()) {
+        lines += "    local typed=\" ${(j: :)words[1,CURRENT-1]} \"\n    typed=${typed//=/ }\n";
+    }
     for (const OptionEntry& option : command.options) {
-        lines += " \\\n        " + (option.argument ? argument_spec(option) : spec_of(option));
+        std::string choices = "choices_" + option.names.front().substr(2);
+        std::replace(choices.begin(), choices.end(), '-', '_');
+        const std::string narrowed = choice_lines(option, choices, all);
+        const ZshWords tests = option.argument ? ZshWords() : tests_of(option.names, all);
+        lines += narrowed + "    " + (tests.empty() ? "" : any_of(tests) + " || ") + "specs+=(" +
+                 (option.argument ? argument_spec(option)
+                                  : spec_of(option, narrowed.empty() ? "" : choices)) +
+                 ")\n";
     }
     return lines;
 }
@@ -92,16 +142,16 @@ std::string described(const std::vector<CommandEntry>& commands) {
 std::string function_text(const CommandEntry& command) {
     const std::string head = function_of(command) + "() {\n";
     if (command.commands.empty()) {
-        return head + "    _arguments" + specs_of(command) + "\n}\n\n";
+        return head + spec_lines(command) + "    _arguments $specs\n}\n\n";
     }
-    std::string text = head +
-                       "    local curcontext=$curcontext state\n    local -a line commands\n" +
-                       "    commands=(\n" + described(command.commands) +
-                       "    )\n    _arguments -C" + specs_of(command) +
-                       " \\\n        '1:command:->command' \\\n        '*::argument:->argument' "
-                       "&& return\n    case $state in\n"
-                       "        command) _describe command commands ;;\n"
-                       "        argument)\n            case $line[1] in\n";
+    std::string text =
+        head + "    local curcontext=$curcontext state\n    local -a line commands\n" +
+        "    commands=(\n" + described(command.commands) + "    )\n" + spec_lines(command) +
+        "    _arguments -C $specs \\\n        '1:command:->command' \\\n        "
+        "'*::argument:->argument' "
+        "&& return\n    case $state in\n"
+        "        command) _describe command commands ;;\n"
+        "        argument)\n            case $line[1] in\n";
     std::string below;
     for (const CommandEntry& each : command.commands) {
         text += "                " + each.name() + ") " + function_of(each) + " ;;\n";

@@ -30,7 +30,7 @@ CompareRequest request_of(const CompareOptions& options) {
     CompareRequest request;
     request.configs = std::move(loaded.configs);
     put_views(loaded.views, request);
-    request.sampling = sampling_for_runs(options.views.within, options.views.seed, request.path);
+    request.sampling = sampling_for_runs(options.views.within, options.views.seed);
     request.jobs = options.jobs;
     check_estimates(request);
     cameras_by_scene(request); // a mistake is found before anything runs

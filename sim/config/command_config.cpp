@@ -80,10 +80,6 @@ std::string difference_of(const ConfigOptions& options) {
         documents.push_back(document(config));
     }
     const std::vector<KeyDifference> keys = difference(documents.front(), documents.back());
-    if (options.format == "yaml") {
-        throw InputError(
-            "--diff has the formats text and markdown; 'yaml' is for one configuration.");
-    }
     return (options.format == "markdown" ? difference_markdown : difference_text)(
         keys, options.different.front(), options.different.back());
 }
@@ -100,15 +96,6 @@ std::string file_text(const RunConfig& config, const ConfigOptions& options) {
 }
 
 std::string statistics(const RunConfig& config, const ConfigOptions& options) {
-    if (options.format == "yaml") {
-        throw InputError(
-            "--stats has the formats text and markdown; 'yaml' is for configurations.");
-    }
-    if (options.of != "run" && options.has_config) {
-        throw InputError("The statistics of 'degs " + options.of +
-                         "' are the same for every configuration; leave out " +
-                         config_words::quote(options.config) + ".");
-    }
     const std::vector<Statistic> all = options.of == "compare"  ? statistics_of_compare()
                                        : options.of == "memory" ? statistics_of_memory()
                                                                 : statistics_of(config);
@@ -125,10 +112,6 @@ std::string keys_markdown(const RunConfig& config, const std::string& part) {
 }
 
 std::string costs(const RunConfig& config, const ConfigOptions& options) {
-    if (options.format == "yaml") {
-        throw InputError(
-            "--cost has the formats text, markdown and json; 'yaml' is for configurations.");
-    }
     const AcceleratorConfig& accelerator = config.accelerator();
     const cost::BillOfMaterials bill = accelerator.bill();
     return options.format == "json"       ? cost_json(accelerator.name, bill, accelerator.clock())
@@ -147,9 +130,6 @@ void run(const ConfigOptions& options) {
     }
     const RunConfig config = config_of(options);
     print_warnings(config.warnings);
-    if (options.format == "json" && !options.cost) {
-        throw InputError("The format json is for --cost; --format yaml prints a configuration.");
-    }
     if (options.cost) {
         print(costs(config, options));
     } else if (options.stats) {
@@ -158,35 +138,28 @@ void run(const ConfigOptions& options) {
         print(keys_markdown(config, options.keys));
     } else if (options.format == "text") {
         print(text(keys_of_part(document(config), options.keys)));
-    } else if (options.keys != "all") {
-        throw InputError("--keys has the formats text and markdown; 'yaml' writes a file with all "
-                         "keys.");
     } else {
         print(file_text(config, options));
     }
 }
 
-/// Adds --stats and the options that go with it; returns --stats.
-CLI::Option* add_statistics_options(CLI::App* command, ConfigOptions& options) {
-    CLI::Option* stats =
-        command->add_flag("--stats", options.stats,
-                          "the statistics that a run on this accelerator reports, with units and "
-                          "meanings");
+/// Adds --stats and the options that go with it.
+void add_statistics_options(CLI::App* command, ConfigOptions& options) {
+    command->add_flag("--stats", options.stats,
+                      "the statistics that a run on this accelerator reports, with units and "
+                      "meanings");
     command->add_option("--of", options.of, "the command whose statistics are listed")
         ->check(CLI::IsMember({"run", "compare", "memory"}))
-        ->capture_default_str()
-        ->needs(stats);
+        ->capture_default_str();
     command
         ->add_option("--section", options.section,
                      "a part of the statistics: stages, stages.span or timing.cycles")
-        ->type_name("PATH")
-        ->needs(stats);
-    return stats;
+        ->type_name("PATH");
 }
 
 /// Adds the option that lists only a part of the keys.
-CLI::Option* add_keys_option(CLI::App* command, ConfigOptions& options) {
-    return command
+void add_keys_option(CLI::App* command, ConfigOptions& options) {
+    command
         ->add_option("--keys", options.keys,
                      "which keys are listed; shared: those that all accelerators have with the "
                      "same default, range and meaning; similar: those that several have with the "
@@ -194,20 +167,6 @@ CLI::Option* add_keys_option(CLI::App* command, ConfigOptions& options) {
                      "its areas and powers")
         ->check(CLI::IsMember(key_parts()))
         ->capture_default_str();
-}
-
-/// Adds the option that prints a schema, which goes with no other.
-void add_schema_option(CLI::App* command, ConfigOptions& options) {
-    CLI::Option* schema =
-        command->add_option("--schema", options.schema,
-                            "the JSON Schema of a kind of file, with which editors complete and "
-                            "check keys");
-    schema->check(CLI::IsMember(schema_names()));
-    for (CLI::Option* other : command->get_options()) {
-        if (other != schema && !other->check_lname("help")) {
-            schema->excludes(other);
-        }
-    }
 }
 
 } // namespace
@@ -226,24 +185,19 @@ void add_config_command(CLI::App& program) {
     command->add_option("--set", options->overrides, "path.to.key=value; may be repeated")
         ->type_name("KEY=VALUE")
         ->take_all()
-        ->expected(1)
-        ->needs(file);
+        ->expected(1);
     CLI::Option* pes =
         command
             ->add_option("--pes", options->pes,
                          "writes the complete design with this number of PEs of the family of an "
                          "accelerator, which is named instead of a file")
-            ->type_name("INT")
-            ->needs(file);
-    CLI::Option* diff =
-        command
-            ->add_option("--diff", options->different,
-                         "the keys in which two configurations differ; files, or names of "
-                         "accelerators for their defaults")
-            ->type_name("FILE FILE")
-            ->expected(2)
-            ->excludes(file)
-            ->excludes(pes);
+            ->type_name("INT");
+    command
+        ->add_option("--diff", options->different,
+                     "the keys in which two configurations differ; files, or names of "
+                     "accelerators for their defaults")
+        ->type_name("FILE FILE")
+        ->expected(2);
     CLI::Option* format =
         command
             ->add_option("--format", options->format,
@@ -251,15 +205,15 @@ void add_config_command(CLI::App& program) {
                          "--cost")
             ->check(CLI::IsMember({"text", "markdown", "yaml", "json"}))
             ->capture_default_str();
-    CLI::Option* cost = command->add_flag(
-        "--cost", options->cost, "area and power of every block of the design, without a run");
-    CLI::Option* stats = add_statistics_options(command, *options);
-    stats->excludes(cost);
-    CLI::Option* keys = add_keys_option(command, *options);
-    keys->excludes(stats)->excludes(cost)->excludes(diff)->excludes(pes);
-    diff->excludes(stats)->excludes(cost);
-    pes->excludes(stats);
-    add_schema_option(command, *options);
+    command->add_flag("--cost", options->cost,
+                      "area and power of every block of the design, without a run");
+    add_statistics_options(command, *options);
+    add_keys_option(command, *options);
+    command
+        ->add_option("--schema", options->schema,
+                     "the JSON Schema of a kind of file, with which editors complete and check "
+                     "keys")
+        ->check(CLI::IsMember(schema_names()));
     command->callback([options, file, pes, format] {
         options->has_config = file->count() != 0; // "" is a name, too
         if (pes->count() != 0 && format->count() == 0 && !options->cost) {

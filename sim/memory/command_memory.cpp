@@ -26,7 +26,6 @@ struct MemoryOptions {
     std::string config;
     std::vector<std::string> overrides;
     TrafficShape shape;
-    int queue = 0;
     std::uint64_t requests = 200000;
     bool no_curve = false;
     std::string out = "out";
@@ -35,10 +34,6 @@ struct MemoryOptions {
 dram::Config load(const MemoryOptions& options) {
     dram::Config config;
     ConfigSource::from_file(options.config, options.overrides).load(config);
-    if (options.queue != 0) {
-        config.controller.read_queue = options.queue;
-        config.controller.write_queue = options.queue;
-    }
     // The traffic itself bounds what waits in a closed loop; with an offered load, or the dates of
     // a trace, nothing does.
     constexpr int kMostTraceRequests = 65536;
@@ -150,24 +145,17 @@ void add_traffic_options(CLI::App& command, TrafficShape& shape) {
     command.add_option("--seed", shape.seed, "seed of the random numbers")->capture_default_str();
 }
 
-/// The options of a pattern have no meaning beside a trace.
 void add_replay_options(CLI::App& command, MemoryOptions& options) {
-    CLI::Option* trace =
-        command
-            .add_option("--trace", options.trace,
-                        "replay the requests of a file in place of a pattern: LoadStoreTrace of "
-                        "Ramulator 2, or STL of DRAMSys")
-            ->type_name("FILE");
-    for (const char* other : {"--pattern", "--request-bytes", "--stride-bytes", "--reads-per-write",
-                              "--seed", "--requests", "--no-curve"}) {
-        trace->excludes(command.get_option(other));
-    }
+    command
+        .add_option("--trace", options.trace,
+                    "replay the requests of a file in place of a pattern: LoadStoreTrace of "
+                    "Ramulator 2, or STL of DRAMSys")
+        ->type_name("FILE");
     command
         .add_option("--trace-ghz", options.trace_ghz,
                     "clock of the cycles of an STL trace; default: the one that the trace names, "
                     "or 1")
-        ->check(CLI::Range(0.001, 100.0))
-        ->needs(trace);
+        ->check(CLI::Range(0.001, 100.0));
 }
 
 } // namespace
@@ -180,10 +168,6 @@ void add_memory_command(CLI::App& program) {
         ->type_name("FILE")
         ->required();
     add_traffic_options(*command, options->shape);
-    command
-        ->add_option("--queue", options->queue,
-                     "depth of each controller queue per channel, in 64 B; default: the file's")
-        ->check(CLI::Range(1, static_cast<int>(dram::Queue::kSlots)));
     command->add_option("--requests", options->requests, "requests to measure after the warm-up")
         ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40U))
         ->capture_default_str();

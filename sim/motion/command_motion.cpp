@@ -38,24 +38,6 @@ void check_rates(const std::vector<double>& rates) {
     }
 }
 
-void check(const MotionRequest& motion) {
-    const bool has_units = motion.eyes.units_per_metre != 1;
-    if (motion.poses.empty() && motion.in_scene) {
-        throw InputError("--in-scene is for recorded poses: --poses is missing.");
-    }
-    if (motion.poses.empty() && !motion.eyes.eyes_m && has_units) {
-        throw InputError("--units-per-metre is for recorded poses and for eyes: --poses or --eyes "
-                         "is missing.");
-    }
-    if (!motion.poses.empty() && motion.between != 0) {
-        throw InputError("--between is for a path through cameras; recorded poses have dates.");
-    }
-    if (motion.in_scene && !motion.eyes.eyes_m && has_units) {
-        throw InputError("--in-scene takes poses as they are, in scene units; --units-per-metre "
-                         "is for poses in metres, and for --eyes.");
-    }
-}
-
 /// The designs; one that keeps lists begins a frame when the one before is in memory, as a head
 /// waits for a display.
 std::vector<NamedConfig> loaded_designs(const MotionOptions& options) {
@@ -76,7 +58,6 @@ void run(const MotionOptions& options) {
     Motion motion;
     check_rates(options.rates);
     motion.rates_hz = options.rates;
-    check(options.motion);
     check_view(options.motion.view);
     CompareRequest request;
     request.configs = loaded_designs(options);

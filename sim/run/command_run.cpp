@@ -50,62 +50,7 @@ struct RunOptions {
     std::string memory_trace; ///< file; empty: none
 };
 
-/// What needs every tile cannot come from a sample.
-std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
-    std::optional<SamplingRequest> sampling =
-        sampling_of(options.fidelity, options.within, options.seed);
-    if (!sampling) {
-        return {};
-    }
-    const auto refuse = [](const std::string& option) {
-        throw InputError(option + " needs every tile, so it cannot be combined with --within or "
-                                  "--fidelity sampled.");
-    };
-    if (!options.trace.file.empty()) {
-        refuse("--trace");
-    }
-    if (options.block_log.given()) {
-        refuse("--block-log");
-    }
-    if (!options.memory_trace.empty()) {
-        refuse("--memory-trace");
-    }
-    if (!options.maps.empty()) {
-        refuse("--maps");
-    }
-    if (options.path.frames > 1) {
-        refuse("--frames");
-    }
-    if (options.path.group.may_have_views()) {
-        throw InputError(kSeveralViews + "--within or --fidelity sampled.");
-    }
-    return sampling;
-}
-
 const std::string kAnalytic = "analytic";
-
-/// An estimate has neither an image nor dates.
-void refuse_beside_analytic(const RunOptions& options) {
-    const std::pair<bool, const char*> asked[] = {
-        {options.within.has_value(), "--within"},
-        {!options.trace.file.empty(), "--trace"},
-        {!options.maps.empty(), "--maps"},
-        {options.path.frames > 1, "--frames"},
-        {options.array_only, "--array-only"},
-        {options.explain, "--explain"},
-        {options.block_log.given(), "--block-log"},
-        {!options.memory_trace.empty(), "--memory-trace"}};
-    for (const auto& [given, option] : asked) {
-        if (given) {
-            throw InputError(std::string(option) +
-                             " needs a simulation, so it cannot be combined with --fidelity "
-                             "analytic.");
-        }
-    }
-    if (options.path.group.may_have_views()) {
-        throw InputError(kSeveralViews + "--fidelity analytic.");
-    }
-}
 
 /// Files of an earlier run that tell nothing of this one: maps of tiles, and further images.
 std::vector<std::string> old_files(const OutputFolder& out, const std::optional<OutputFolder>& maps,
@@ -124,7 +69,6 @@ std::vector<std::string> old_files(const OutputFolder& out, const std::optional<
 }
 
 void estimate(const RunOptions& options) {
-    refuse_beside_analytic(options);
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
     CachedView view(options.view, options.path,
                     options.no_cache ? FrameCache() : FrameCache::of_user());
@@ -220,18 +164,6 @@ RunResult simulate_traced(const std::string& trace, RunRequest& request,
     return std::move(*result);
 }
 
-/// The designs of --what-if, whose estimates are of whole frames.
-std::vector<ChangedDesign> wanted_changes(const RunOptions& options, const RunConfig& config) {
-    if (options.array_only && !options.what_if.empty()) {
-        throw InputError("--what-if estimates whole frames, so it cannot be combined with "
-                         "--array-only.");
-    }
-    if (options.path.group.may_have_views() && !options.what_if.empty()) {
-        throw InputError(kSeveralViews + "--what-if.");
-    }
-    return changed_designs(config, options.what_if);
-}
-
 std::vector<std::string> result_files(const RunOptions& options) {
     std::vector<std::string> files = image_result_files("report.json");
     for (int v = 1; v < options.path.group.images(); ++v) {
@@ -267,13 +199,10 @@ void run(const RunOptions& options) {
     if (options.fidelity == kAnalytic) {
         return estimate(options);
     }
-    const std::optional<SamplingRequest> sampling = wanted_sampling(options);
-    if (options.path.group.foveation && !options.maps.empty()) {
-        throw InputError("--maps shows the tiles of one view, and --foveation draws an image in "
-                         "several; only one of the two is allowed.");
-    }
+    const std::optional<SamplingRequest> sampling =
+        sampling_of(options.fidelity, options.within, options.seed);
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
-    const std::vector<ChangedDesign> changed = wanted_changes(options, config);
+    const std::vector<ChangedDesign> changed = changed_designs(config, options.what_if);
     PathRequest path = options.path;
     path.near_plane = config.accelerator().data_path().rules.near;
     CachedView view(options.view, path, options.no_cache ? FrameCache() : FrameCache::of_user());

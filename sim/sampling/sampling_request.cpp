@@ -87,11 +87,6 @@ std::optional<SamplingRequest> sampling_of(const std::string& fidelity,
                                            std::uint64_t seed) {
     std::optional<SamplingRequest> request = parse_sampled(fidelity);
     if (within) {
-        if (request || fidelity == "strict") {
-            throw InputError("--within says how many tiles are simulated, so it cannot be combined "
-                             "with --fidelity " +
-                             fidelity + ".");
-        }
         request = parse_within(*within);
     }
     if (request) {

@@ -22,8 +22,8 @@ SamplingRequest parse_within(const std::string& text);
 /// "sampled:10%" asks for a share, "exact" and "strict" for none. Throws InputError for others.
 std::optional<SamplingRequest> parse_sampled(const std::string& fidelity);
 
-/// What the two options and the seed ask for together; nothing if neither asks for a sample. Throws
-/// InputError for both at once.
+/// What the seed and one of the two options ask for; nothing if neither asks for a sample. Throws
+/// InputError.
 std::optional<SamplingRequest> sampling_of(const std::string& fidelity,
                                            const std::optional<std::string>& within,
                                            std::uint64_t seed);

@@ -86,10 +86,8 @@ void add_info(CLI::App& scene) {
                               [&view](const std::string& text) { view.camera = one_camera(text); },
                               "view to measure, from 0")
                           ->type_name("POSITION");
-    CLI::Option* width =
-        command->add_option("--width", view.width, "image width of the view in pixels")
-            ->needs(options->camera);
-    add_resolution_option(*command, view.resolution)->needs(options->camera)->excludes(width);
+    command->add_option("--width", view.width, "image width of the view in pixels");
+    add_resolution_option(*command, view.resolution);
     command
         ->add_option("--preview", options->preview,
                      "draw the view (the first camera's without --camera) with the reference "
@@ -121,7 +119,6 @@ void add_generate(CLI::App& scene) {
         ->capture_default_str();
     add_scene_out(*command, options->out, writable_scene_extensions());
     command->callback([options] {
-        require_scene_out(options->out);
         check_scene_writable(options->out);
         std::string spec = "synthetic:" + options->profile + ",seed=" + options->seed;
         if (!options->gaussians.empty()) {
@@ -154,7 +151,6 @@ void add_convert(CLI::App& scene) {
         ->required();
     add_scene_out(*command, options->out, writable_scene_extensions());
     command->callback([options] {
-        require_scene_out(options->out);
         check_scene_writable(options->out);
         const Scene loaded = load_scene(options->in);
         print_warnings(loaded.notes);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "degs/error.hpp"
 #include "scene/tiling/scene_tiling.hpp"
@@ -16,27 +17,20 @@ namespace degs::sim {
 namespace {
 
 struct TileOptions {
-    std::string scene, copies, out;
+    std::string scene, out;
+    std::optional<TilingCounts> copies; ///< else those for a number of Gaussians
     std::uint64_t gaussians = 0;
 };
 
 void run_tile(const TileOptions& options) {
-    require_scene_out(options.out);
     if (std::filesystem::path(options.out).extension() != ".glb") {
         throw InputError("The scene file '" + options.out +
                          "' cannot be written: a tiled scene shows one mesh many times, which only "
                          ".glb can.");
     }
-    if (options.copies.empty() && options.gaussians == 0) {
-        throw InputError("A tiled scene needs --copies, e.g. 4x3, or --gaussians, a number.");
-    }
-    if (!options.copies.empty()) {
-        parse_tiling(options.copies); // before the scene is loaded
-    }
     const Scene scene = load_scene(options.scene);
-    const TilingCounts counts = options.copies.empty()
-                                    ? tiling_for(options.gaussians, scene.cloud.size())
-                                    : parse_tiling(options.copies);
+    const TilingCounts counts =
+        options.copies ? *options.copies : tiling_for(options.gaussians, scene.cloud.size());
     const SceneTiling tiling = tile_scene(scene.cloud, counts);
     const std::string words = scene.name + " · " + grouped(counts.copies) + " copies of " +
                               grouped(scene.cloud.size()) +
@@ -56,14 +50,16 @@ void add_scene_tile(CLI::App& scene) {
     command->add_option("scene", options->scene, "scene file, or synthetic:NAME[,...]")
         ->type_name("SCENE")
         ->required();
-    CLI::Option* copies = command
-                              ->add_option("--copies", options->copies,
-                                           "copies along x and z, e.g. 4x3, and layers, e.g. 4x3x2")
-                              ->type_name("NxM[xK]");
+    command
+        ->add_option_function<std::string>(
+            "--copies",
+            [options](const std::string& text) { options->copies = parse_tiling(text); },
+            "copies along x and z, e.g. 4x3, and layers, e.g. 4x3x2")
+        ->type_name("NxM[xK]");
     command
         ->add_option("--gaussians", options->gaussians,
                      "as many copies as it takes to have this number, in a square")
-        ->excludes(copies);
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40U));
     add_scene_out(*command, options->out, ".glb");
     command->callback([options] { run_tile(*options); });
 }

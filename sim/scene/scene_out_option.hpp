@@ -11,7 +11,4 @@ namespace degs::sim {
 /// that can be written.
 void add_scene_out(CLI::App& command, std::string& out, const std::string& extensions);
 
-/// Throws InputError if neither was given.
-void require_scene_out(const std::string& out);
-
 } // namespace degs::sim

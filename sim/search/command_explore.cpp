@@ -4,6 +4,7 @@
 
 #include "base/visible_text.hpp"
 #include "degs/error.hpp"
+#include "sim/command_line/combinations.hpp"
 #include "sim/search/evolution.hpp"
 #include "sim/search/halving.hpp"
 #include "sim/search/search_output.hpp"
@@ -37,24 +38,6 @@ Study searched_study(const ExploreOptions& options) {
         study.limits = {options.limits, "--limits"};
     }
     return study;
-}
-
-/// Options of one way to search say nothing about the other.
-void check_method(const CLI::App& command, const std::string& method) {
-    for (const auto& [option, owner] :
-         {std::pair("--rungs", "halving"), std::pair("--share", "halving"),
-          std::pair("--least", "halving"), std::pair("--budget", "evolution"),
-          std::pair("--population", "evolution"), std::pair("--generations", "evolution")}) {
-        if (command.get_option(option)->count() > 0 && method != owner) {
-            throw InputError(std::string(option) + " is an option of --search " + owner +
-                             ", but the search is " + method + ".");
-        }
-    }
-    if (command.get_option("--budget")->count() > 0 &&
-        command.get_option("--fidelity")->as<std::string>() == "analytic") {
-        throw InputError(
-            "--budget counts simulations, but there are none with --fidelity analytic.");
-    }
 }
 
 void run_search(const ExploreOptions& options, const StudyPlan& plan, Searcher& searcher) {
@@ -91,10 +74,14 @@ void check_space(const Study& study, std::vector<NamedConfig> designs) {
             "--search evolution combines values of axes, but the study varies one at a "
             "time; --search halving can search it.");
     }
-    if (study.array_only) {
-        throw InputError("--search evolution estimates whole accelerators, but the study runs the "
-                         "arrays alone; --search halving can search it.");
-    }
+    refuse_combinations(
+        "degs explore", rules_of("explore", [](const std::string&) { return true; }),
+        [&study](const std::string& option) -> OptionState {
+            return option == "--search" ? OptionState{true, "evolution"}
+                   : option == "--array-only"
+                       ? OptionState{study.array_only, "", "or 'array_only' of a study"}
+                       : OptionState();
+        });
     CompareRequest estimates;
     estimates.configs = std::move(designs);
     estimates.analytic = true;
@@ -149,18 +136,16 @@ void add_evolution_options(CLI::App& command, EvolutionOptions& options) {
 }
 
 void add_shard_options(CLI::App& command, ExploreOptions& options) {
-    CLI::Option* shard =
-        command
-            .add_option("--shard", options.shard,
-                        "search together with N-1 other processes in the same folder: this one "
-                        "runs the K-th of N parts of every step, or with auto that of this task "
-                        "of a job array; the first one writes the results")
-            ->type_name("K/N");
+    command
+        .add_option("--shard", options.shard,
+                    "search together with N-1 other processes in the same folder: this one "
+                    "runs the K-th of N parts of every step, or with auto that of this task "
+                    "of a job array; the first one writes the results")
+        ->type_name("K/N");
     command
         .add_option("--patience", options.patience,
                     "minutes without a point of the others after which a part gives up")
         ->check(CLI::PositiveNumber)
-        ->needs(shard)
         ->capture_default_str();
 }
 
@@ -200,8 +185,7 @@ void add_explore_command(CLI::App& program) {
     add_shard_options(*command, *options);
     command->get_option("--seed")->description(
         "of the draw of tiles with --within, and of --search evolution");
-    command->callback([options, command] {
-        check_method(*command, options->method);
+    command->callback([options] {
         const Study study = searched_study(*options);
         if (options->method == "evolution") {
             run_evolution(*options, study);

@@ -72,21 +72,11 @@ void add_help_command(CLI::App& program) {
     auto options = std::make_shared<HelpOptions>();
     CLI::App* command =
         program.add_subcommand("help", "explain the program or a command: degs help scene info");
-    CLI::Option* words = command->add_option("command", options->command, "words of a command")
-                             ->type_name("COMMAND");
-    CLI::Option* manual =
-        command->add_flag("--man", options->manual, "print the manual page (roff)")
-            ->excludes(words);
-    CLI::Option* bash =
-        command
-            ->add_flag("--bash-completion", options->bash_completion,
-                       "print what bash needs to complete commands, options and values")
-            ->excludes(words)
-            ->excludes(manual);
-    command->add_flag("--zsh-completion", options->zsh_completion, "print the same for zsh")
-        ->excludes(words)
-        ->excludes(manual)
-        ->excludes(bash);
+    command->add_option("command", options->command, "words of a command")->type_name("COMMAND");
+    command->add_flag("--man", options->manual, "print the manual page (roff)");
+    command->add_flag("--bash-completion", options->bash_completion,
+                      "print what bash needs to complete commands, options and values");
+    command->add_flag("--zsh-completion", options->zsh_completion, "print the same for zsh");
     command->callback([options, &program] { run(program, *options); });
 }
 

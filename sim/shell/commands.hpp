@@ -28,6 +28,6 @@ void add_help_command(CLI::App& program);
 /// `--set`, for commands that take one configuration file.
 void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides);
 /// `--set`, for commands that take several configuration files, whose designs have names.
-CLI::Option* add_addressed_overrides_option(CLI::App& command, std::vector<std::string>& overrides);
+void add_addressed_overrides_option(CLI::App& command, std::vector<std::string>& overrides);
 
 } // namespace degs::sim

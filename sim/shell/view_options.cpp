@@ -11,8 +11,8 @@ constexpr int kMostFrames = 10000;
 
 } // namespace
 
-CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution) {
-    return command
+void add_resolution_option(CLI::App& command, std::string& resolution) {
+    command
         .add_option(
             "--resolution", resolution,
             "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high, as wide "
@@ -40,8 +40,8 @@ CLI::Option* add_crop_option(CLI::App& command, std::string& crop) {
         ->type_name("X,Y,WxH");
 }
 
-CLI::Option* add_memory_option(CLI::App& command, std::string& file) {
-    return command
+void add_memory_option(CLI::App& command, std::string& file) {
+    command
         .add_option("--memory", file,
                     "file of an LPDDR5 memory, as in configs/memory; it overrides the memory "
                     "section of every design")
@@ -97,58 +97,47 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
             [&request](const std::string& text) { request.camera = one_camera(text); },
             "position in the scene's list of cameras, from 0")
         ->type_name("POSITION");
-    CLI::Option* width =
-        command.add_option("--width", request.width, "image width in pixels; the view is scaled");
-    CLI::Option* height =
-        command.add_option("--height", request.height,
-                           "image height in pixels; alone it scales the view, with --width it "
-                           "crops or extends it");
-    add_resolution_option(command, request.resolution)->excludes(width)->excludes(height);
+    command.add_option("--width", request.width, "image width in pixels; the view is scaled");
+    command.add_option("--height", request.height,
+                       "image height in pixels; alone it scales the view, with --width it crops or "
+                       "extends it");
+    add_resolution_option(command, request.resolution);
     add_crop_option(command, request.crop);
 }
 
 void add_view_or_workload_options(CLI::App& command, ViewRequest& request) {
     add_view_options(command, request);
-    CLI::Option* const scene = command.get_option("--scene");
-    CLI::Option* const workload =
-        command
-            .add_option_function<std::string>(
-                "--workload",
-                [&request, scene](const std::string& file) {
-                    if (file.empty()) {
-                        throw InputError("The workload has an empty name; a file is needed.");
-                    }
-                    request.workload = file;
-                    scene->required(false);
-                },
-                "frame that 'degs workload pack' has written, instead of a scene and a view")
-            ->type_name("FILE");
-    for (const char* option : {"--scene", "--camera-file", "--camera", "--width", "--height",
-                               "--resolution", "--crop"}) {
-        workload->excludes(command.get_option(option));
-    }
+    command.get_option("--scene")->required(false);
+    command
+        .add_option_function<std::string>(
+            "--workload",
+            [&request](const std::string& file) {
+                if (file.empty()) {
+                    throw InputError("The workload has an empty name; a file is needed.");
+                }
+                request.workload = file;
+            },
+            "frame that 'degs workload pack' has written, instead of a scene and a view")
+        ->type_name("FILE");
 }
 
 void add_path_options(CLI::App& command, PathRequest& request) {
-    CLI::Option* frames =
-        command
-            .add_option(
-                "--frames", request.frames,
-                "frames of a camera path that starts at the view, or of a scene that changes; "
-                "from 3 on, throughput is measured, too")
-            ->check(CLI::Range(1, kMostFrames))
-            ->capture_default_str();
+    command
+        .add_option("--frames", request.frames,
+                    "frames of a camera path that starts at the view, or of a scene that changes; "
+                    "from 3 on, throughput is measured, too")
+        ->check(CLI::Range(1, kMostFrames))
+        ->capture_default_str();
     command
         .add_option("--path-step", request.step_degrees,
                     "degrees by which the camera turns about the middle of the scene from frame to "
                     "frame")
         ->check(CLI::Range(-kMostPathStepDegrees, kMostPathStepDegrees))
-        ->needs(frames)
         ->capture_default_str();
 }
 
-CLI::Option* add_eyes_option(CLI::App& command, GroupRequest& request) {
-    return command
+void add_eyes_option(CLI::App& command, GroupRequest& request) {
+    command
         .add_option("--eyes", request.eyes_m,
                     "distance of two eyes, m: each frame has two views, half of it to the left "
                     "and to the right of the camera")
@@ -157,27 +146,17 @@ CLI::Option* add_eyes_option(CLI::App& command, GroupRequest& request) {
 }
 
 void add_group_options(CLI::App& command, GroupRequest& request) {
-    CLI::Option* const eyes = add_eyes_option(command, request);
+    add_eyes_option(command, request);
     command.add_option("--units-per-metre", request.units_per_metre, "scene units for a metre")
         ->check(CLI::Range(kLeastUnitsPerMetre, kMostUnitsPerMetre))
-        ->needs(eyes)
         ->capture_default_str();
-    CLI::Option* const views =
-        command
-            .add_option_function<std::string>(
-                "--views",
-                [&request](const std::string& text) { request.cameras = group_cameras(text); },
-                "positions of cameras, separated by commas, that are views of one frame and share "
-                "what projection.shared_by_views says")
-            ->type_name("POSITIONS")
-            ->excludes(eyes);
-    for (const char* option : {"--camera", "--path-step"}) {
-        views->excludes(command.get_option(option));
-    }
-    if (CLI::Option* const workload = command.get_option_no_throw("--workload")) {
-        views->excludes(workload);
-        eyes->excludes(workload);
-    }
+    command
+        .add_option_function<std::string>(
+            "--views",
+            [&request](const std::string& text) { request.cameras = group_cameras(text); },
+            "positions of cameras, separated by commas, that are views of one frame and share "
+            "what projection.shared_by_views says")
+        ->type_name("POSITIONS");
 }
 
 void add_foveation_option(CLI::App& command, GroupRequest& request) {
@@ -187,8 +166,7 @@ void add_foveation_option(CLI::App& command, GroupRequest& request) {
             [&request](const std::string& text) { request.foveation = foveation_of(text); },
             "point looked at, in shares of width and height, and degrees from there: full "
             "resolution up to FOVEA, half up to PERIPHERY, a quarter beyond")
-        ->type_name("X,Y:FOVEA:PERIPHERY")
-        ->excludes(command.get_option("--workload"));
+        ->type_name("X,Y:FOVEA:PERIPHERY");
 }
 
 void add_sampling_options(CLI::App& command, std::optional<std::string>& within,

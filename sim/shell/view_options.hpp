@@ -20,8 +20,8 @@ void add_view_options(CLI::App& command, ViewRequest& request);
 /// Adds the same options and --workload, a file that takes the place of all of them.
 void add_view_or_workload_options(CLI::App& command, ViewRequest& request);
 
-/// Adds --resolution, which excludes the options for width and height.
-CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution);
+/// Adds --resolution.
+void add_resolution_option(CLI::App& command, std::string& resolution);
 
 /// Adds the configuration file, an argument.
 CLI::Option* add_config_option(CLI::App& command, std::string& config);
@@ -30,7 +30,7 @@ CLI::Option* add_config_option(CLI::App& command, std::string& config);
 CLI::Option* add_camera_file_option(CLI::App& command, std::string& file);
 
 /// Adds --memory, the file of an LPDDR5 memory, see put_memory().
-CLI::Option* add_memory_option(CLI::App& command, std::string& file);
+void add_memory_option(CLI::App& command, std::string& file);
 
 /// Adds --crop, a part of the images.
 CLI::Option* add_crop_option(CLI::App& command, std::string& crop);
@@ -48,13 +48,12 @@ CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* 
 void add_path_options(CLI::App& command, PathRequest& request);
 
 /// Adds --eyes, the distance of the two views of each frame.
-CLI::Option* add_eyes_option(CLI::App& command, GroupRequest& request);
+void add_eyes_option(CLI::App& command, GroupRequest& request);
 
-/// Adds --eyes, --units-per-metre and --views, the views of each frame, to a command with --camera
-/// and --path-step.
+/// Adds --eyes, --units-per-metre and --views, the views of each frame.
 void add_group_options(CLI::App& command, GroupRequest& request);
 
-/// Adds --foveation, the levels of each image, to a command with --workload.
+/// Adds --foveation, the levels of each image.
 void add_foveation_option(CLI::App& command, GroupRequest& request);
 
 /// Adds --within and --seed, for commands that may simulate a sample of the tiles.

@@ -291,8 +291,7 @@ RunResult run_frames(const RunRequest& request, FrameSource frames) {
     std::optional<SampledResult> sampled;
     if (request.sampling) {
         if (taken.several()) {
-            throw InputError("A sample of tiles is of one frame, but the run has several; "
-                             "--frames cannot be combined with --within or --fidelity sampled.");
+            throw std::logic_error("a sample of tiles is of one frame, and the run has several");
         }
         sampled = try_sample(request, *taken.first().front(), refusal, lost_s);
     }

@@ -86,10 +86,6 @@ std::optional<std::array<Number, count>> numbers_of(const std::string& text,
 
 } // namespace
 
-const std::string kSeveralViews =
-    "Estimates are of frames with one view, so several views of a frame (--eyes, --views "
-    "or --foveation, or keys of a study) cannot be combined with ";
-
 void check_positive(const char* option, std::optional<int> value) {
     if (value && *value < 1) {
         throw InputError(std::string(option) + " is " + std::to_string(*value) +

@@ -72,11 +72,7 @@ struct GroupRequest {
     int images() const {
         return eyes_m ? 2 : cameras.empty() ? 1 : static_cast<int>(cameras.size());
     }
-    bool may_have_views() const { return images() > 1 || foveation; }
 };
-
-/// The sentence, up to the option, that refuses an estimate of frames with several views.
-extern const std::string kSeveralViews;
 
 /// A run of several frames along a camera path that starts at the view's camera.
 struct PathRequest {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "degs/error.hpp"
 #include "scene/scene.hpp"
 #include "sim/analytic/analytic_run.hpp"
+#include "sim/command_line/combinations.hpp"
 #include "sim/study/addressed_overrides.hpp"
 
 namespace degs::sim {
@@ -129,16 +131,8 @@ void check_scenes(const std::vector<std::string>& scenes) {
 }
 
 std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
-                                                 std::uint64_t seed, const PathRequest& path) {
-    std::optional<SamplingRequest> sampling = sampling_of("exact", within, seed);
-    if (sampling && path.group.images() > 1) {
-        throw InputError(kSeveralViews + "--within.");
-    }
-    if (sampling && path.frames > 1) {
-        throw InputError("--frames asks for a camera path, which needs every tile, so it cannot be "
-                         "combined with --within.");
-    }
-    return sampling;
+                                                 std::uint64_t seed) {
+    return sampling_of("exact", within, seed);
 }
 
 LoadedConfigs load_compared(const std::vector<std::string>& words,
@@ -228,26 +222,31 @@ bool is_analytic(const std::string& fidelity) {
     return fidelity == "analytic";
 }
 
+void check_combinations(const CompareRequest& request) {
+    const GroupRequest& group = request.path.group;
+    const std::map<std::string, OptionState> states{
+        {"--frames",
+         {request.path.frames > 1, std::to_string(request.path.frames), "or 'frames' of a study"}},
+        {"--eyes", {group.eyes_m.has_value(), "", "or 'eyes' of a study"}},
+        {"--views", {!group.cameras.empty(), "", "or 'views' of a study"}},
+        {"--array-only", {request.array_only, "", "or 'array_only' of a study"}},
+        {"--within", {request.sampling.has_value()}},
+        {"--fidelity",
+         {request.analytic, request.analytic ? "analytic" : "exact", "or 'fidelity' of a study"}}};
+    refuse_combinations("degs compare",
+                        rules_of("compare", [](const std::string&) { return true; }),
+                        [&states](const std::string& option) {
+                            const auto found = states.find(option);
+                            return found == states.end() ? OptionState() : found->second;
+                        });
+}
+
 void check_estimates(const CompareRequest& request) {
-    if (!request.analytic) {
-        return;
-    }
-    if (request.path.group.images() > 1) {
-        throw InputError(kSeveralViews + "the fidelity analytic.");
-    }
-    const std::pair<bool, const char*> asked[] = {
-        {request.path.frames > 1, "A camera path (--frames, or 'frames' of a study)"},
-        {request.array_only, "The array alone (--array-only, or 'array_only' of a study)"},
-        {request.sampling.has_value(), "A sample of the tiles (--within)"}};
-    for (const auto& [given, what] : asked) {
-        if (given) {
-            throw InputError(std::string(what) +
-                             " needs simulations, so it cannot be combined with the fidelity "
-                             "analytic, which estimates single frames.");
-        }
-    }
+    check_combinations(request);
     for (const NamedConfig& named : request.configs) {
-        analytic_model_of(named.config);
+        if (request.analytic) {
+            analytic_model_of(named.config);
+        }
     }
 }
 

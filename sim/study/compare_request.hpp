@@ -78,16 +78,18 @@ std::optional<std::vector<int>> parse_cameras(const std::string& text);
 /// "1080p,2064x2208", see image_size(). Throws InputError for a mistake and a size given twice.
 std::vector<ImageSize> parse_resolutions(const std::string& text);
 
-/// What --within asks for in commands that run several designs. Throws InputError for a mistake,
-/// and if there is a camera path of several frames or of several views.
+/// What --within asks for in commands that run several designs. Throws InputError for a mistake.
 std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
-                                                 std::uint64_t seed, const PathRequest& path);
+                                                 std::uint64_t seed);
 
 /// Whether --fidelity asks for estimates of the analytic model; else for simulations of all tiles.
 /// Throws InputError for any other word.
 bool is_analytic(const std::string& fidelity);
 
-/// Throws InputError if estimates are asked for what only a simulation gives, or of a design whose
+/// Throws InputError if what a study and the options ask for breaks a rule of the options.
+void check_combinations(const CompareRequest& request);
+
+/// Throws InputError like check_combinations(), and if estimates are asked for of a design whose
 /// accelerator has no analytic model.
 void check_estimates(const CompareRequest& request);
 

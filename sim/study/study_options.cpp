@@ -34,15 +34,12 @@ void add_study_view_options(CLI::App& command, ViewOptions& options) {
             "of a study")
         ->type_name("LIST");
     add_camera_file_option(command, options.camera_file);
-    CLI::Option* resolution =
-        command
-            .add_option(
-                "--resolution", options.resolutions,
-                "720p, 1080p, 2k, 4k, 8k or WIDTHxHEIGHT, or several separated by commas; in place "
-                "of those of a study")
-            ->type_name("SIZES");
-    command.add_option("--width", options.width, "image width in pixels; the views are scaled")
-        ->excludes(resolution);
+    command
+        .add_option("--resolution", options.resolutions,
+                    "720p, 1080p, 2k, 4k, 8k or WIDTHxHEIGHT, or several separated by commas; in "
+                    "place of those of a study")
+        ->type_name("SIZES");
+    command.add_option("--width", options.width, "image width in pixels; the views are scaled");
     add_crop_option(command, options.crop);
     add_path_options(command, options.path);
     add_group_options(command, options.path.group);
@@ -128,7 +125,7 @@ Study study_of(const StudyOptions& options) {
     }
     study.memory = options.memory;
     replace_views(options, study);
-    study.sampling = sampling_for_runs(options.within, options.seed, study.path);
+    study.sampling = sampling_for_runs(options.within, options.seed);
     return study;
 }
 

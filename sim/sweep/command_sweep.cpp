@@ -240,35 +240,26 @@ void add_sweep_command(CLI::App& program) {
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     add_out_option(*command, options->out, "folder for points, results and reports");
-    CLI::Option* shard =
-        command
-            ->add_option("--shard", options->shard,
-                         "run the K-th of N parts of the points only, or with auto the part of "
-                         "this task of a job array; --collect makes the results")
-            ->type_name("K/N");
-    CLI::Option* collect = command->add_flag(
-        "--collect", options->collect, "run nothing; make the results of the points in the folder");
-    collect->excludes(shard);
-    command->add_flag("--list", options->list, "run nothing; list the points")
-        ->excludes(shard)
-        ->excludes(collect);
-    CLI::Option* sort =
-        command
-            ->add_option("--sort", options->sort,
-                         "print the best designs by these goals, in this order of importance")
-            ->type_name("A,B,...")
-            ->excludes(shard);
+    command
+        ->add_option("--shard", options->shard,
+                     "run the K-th of N parts of the points only, or with auto the part of this "
+                     "task of a job array; --collect makes the results")
+        ->type_name("K/N");
+    command->add_flag("--collect", options->collect,
+                      "run nothing; make the results of the points in the folder");
+    command->add_flag("--list", options->list, "run nothing; list the points");
+    command
+        ->add_option("--sort", options->sort,
+                     "print the best designs by these goals, in this order of importance")
+        ->type_name("A,B,...");
     command->add_option("--top", options->top, "designs to print with --sort")
         ->check(CLI::Range(1, 100000))
-        ->needs(sort)
         ->capture_default_str();
-    CLI::Option* slurm = command->add_flag(
+    command->add_flag(
         "--slurm", options->slurm,
         "run nothing here; submit the points as a job array of Slurm, then use --collect");
-    slurm->excludes(shard)->excludes(collect);
     command->add_option("--tasks", options->tasks, "most tasks of the job array")
         ->check(CLI::Range(1, 10000))
-        ->needs(slurm)
         ->capture_default_str();
     command
         ->add_option("--sbatch", options->sbatch,
@@ -276,8 +267,7 @@ void add_sweep_command(CLI::App& program) {
                      "be repeated")
         ->type_name("TEXT")
         ->take_all()
-        ->expected(1)
-        ->needs(slurm);
+        ->expected(1);
     command->callback([options] { run(*options); });
 }
 

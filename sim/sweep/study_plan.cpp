@@ -168,6 +168,7 @@ StudyPlan plan_views(const Study& study) {
     plan.name = study.name;
     put_views(study, plan.request);
     plan.request.sampling = study.sampling;
+    check_combinations(plan.request);
     plan.views = views_of(plan.request);
     plan.aims = aims_of(study);
     plan.watch = std::make_shared<InputWatch>();

@@ -19,18 +19,16 @@ constexpr std::size_t kMostSteps = 100000;
 } // namespace
 
 void add_trace_options(CLI::App& command, TraceRequest& request) {
-    CLI::Option* file =
-        command
-            .add_option("--trace", request.file,
-                        "file for a timeline of the units, the PEs, the buffers and the memory, "
-                        "which https://ui.perfetto.dev opens")
-            ->type_name("FILE");
+    command
+        .add_option("--trace", request.file,
+                    "file for a timeline of the units, the PEs, the buffers and the memory, "
+                    "which https://ui.perfetto.dev opens")
+        ->type_name("FILE");
     command
         .add_option("--trace-step", request.step,
                     "cycles that the timeline sums up; default: 64, doubled until at most 2000 "
                     "steps cover the run")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}))
-        ->needs(file);
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}));
 }
 
 void add_memory_trace_option(CLI::App& command, std::string& file) {

@@ -209,7 +209,10 @@ TEST(HostileStatistics, Mistakes) {
     expect_mistake(degs({"config", "gpu", "--stats"}), "gpu");
     expect_mistake(degs({"config", "--stats", "--of", "soc"}), "soc");
     expect_mistake(degs({"config", "--of", "memory"}), "--stats");
-    expect_mistake(degs({"config", "gbu", "--stats", "--of", "memory"}), "leave out 'gbu'");
+    expect_mistake(
+        degs({"config", "gbu", "--stats", "--of", "memory"}),
+        "--of has the same statistics for every configuration, so it cannot be combined with "
+        "CONFIG.");
 }
 
 } // namespace

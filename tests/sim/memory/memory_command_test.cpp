@@ -45,8 +45,10 @@ TEST(MemoryCommand, StreamsUseTheBus) {
 TEST(MemoryCommand, RandomTrafficNeedsDeepQueues) {
     double before = 0;
     for (const char* queue : {"8", "32", "64"}) {
-        const auto written = measure(
-            "lpddr5-6400x256", {"--pattern", "random", "--queue", queue, "--requests", "50000"});
+        const auto written =
+            measure("lpddr5-6400x256", {"--pattern", "random", "--requests", "50000", "--set",
+                                        std::string("controller.read_queue=") + queue, "--set",
+                                        std::string("controller.write_queue=") + queue});
         EXPECT_GE(fraction(written), before);
         EXPECT_LE(fraction(written), 0.80) << "five commands for four CK of data";
         EXPECT_GE(fraction(written), std::string(queue) == "8" ? 0.4 : 0.6);
@@ -150,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(
     Mistakes, HostileMemory,
     ::testing::Values(Case{{}, "config"}, Case{{"no-such.yaml"}, "no-such.yaml"},
                       Case{{memory("lpddr5-6400x256"), "--pattern", "zigzag"}, "zigzag"},
-                      Case{{memory("lpddr5-6400x256"), "--queue", "65"}, "65"},
+                      Case{{memory("lpddr5-6400x256"), "--set", "controller.read_queue=65"}, "65"},
                       Case{{memory("lpddr5-6400x256"), "--requests", "0"}, "requests"},
                       Case{{memory("lpddr5-6400x256"), "--request-bytes", "0"}, "request-bytes"},
                       Case{{memory("lpddr5-6400x256"), "--set", "timing.rcd=0"}, "timing.rcd"},

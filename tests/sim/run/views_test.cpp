@@ -88,8 +88,8 @@ TEST(ViewsOfARun, AreRefusedWhereOneViewIsMeant) {
     refused({"--eyes", "0.06", "--what-if", "span.count=4"}, "--what-if");
     refused({"--views", "0"}, "2 to 64 positions");
     refused({"--views", "0,x"}, "2 to 64 positions");
-    refused({"--views", "0,1", "--eyes", "1"}, "--eyes excludes --views");
-    refused({"--views", "0,1", "--camera", "1"}, "--camera excludes --views");
+    refused({"--views", "0,1", "--eyes", "1"}, "so it cannot be combined with --eyes.");
+    refused({"--views", "0,1", "--camera", "1"}, "so it cannot be combined with --camera.");
 }
 
 } // namespace

@@ -117,6 +117,15 @@ TEST(BashCompletion, KnowsCommandsOptionsAndValues) {
               (Words{"analytic", "exact", "strict"}));
     EXPECT_EQ(completions({"degs", "scene", "info", "x.ply", "--wi"}), Words{"--width"});
     EXPECT_EQ(completions({"degs", "help", "me"}), Words{"memory"});
+    EXPECT_EQ(completions({"degs", "run", "--views", "0,1", "--came"}), Words{"--camera-file"});
+    EXPECT_EQ(completions({"degs", "run", "--workload", "=", "f", "--came"}), Words{});
+    EXPECT_EQ(completions({"degs", "run", "--cameras", "1", "--v"}), Words{});
+    EXPECT_EQ(completions({"degs", "run", "--trace", "t", "--fidelity", ""}),
+              (Words{"exact", "strict"}));
+    EXPECT_EQ(completions({"degs", "run", "--fidelity", "sampled:1%", "--m"}), Words{"--memory"});
+    EXPECT_EQ(completions({"degs", "run", "--fidelity", "strict", "--ma"}), Words{"--maps"});
+    EXPECT_EQ(completions({"degs", "run", "--frames", "2", "--wit"}), Words{});
+    EXPECT_EQ(completions({"degs", "run", "--frames", "1", "--wit"}), Words{"--within"});
     EXPECT_EQ(completions({"degs", "run", "--width", ""}), Words{});
     EXPECT_EQ(completions({"degs", "scene", "convert", "synthetic:ob"}), Words{"synthetic:object"});
     EXPECT_EQ(completions({"degs", "run", "--scene", "synthetic:ob"}), Words{"synthetic:object"});

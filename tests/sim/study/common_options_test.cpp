@@ -93,7 +93,7 @@ TEST(MemoryOption, IsRefusedWhereNoMemoryIsSimulated) {
                                   "compare, sweep, explore, motion, soc, accuracy.");
     }
     expect_mistake(degs({"accuracy", "--scene", "synthetic:single", "--memory", memory}),
-                   "--memory requires --speed");
+                   "--memory is for runs of configurations, so it needs --speed.");
     const Folder folder;
     expect_mistake(
         degs({"sweep", small_study(folder, "axes:\n  memory.model: [bandwidth, lpddr5]\n"),

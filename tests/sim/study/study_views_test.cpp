@@ -121,8 +121,10 @@ TEST(HostileViewsOfAStudy, Mistakes) {
     refused("crop: 0,0,32x32\n", {"--resolution", "720p,1080p", "--crop", "0,0,32x32"},
             "images in one size");
     refused("crop: 1,2,3\n", {}, "X,Y,WxH");
-    refused("eyes: 1\n", {"--within", "1%"}, "Estimates are of frames with one view");
-    refused("eyes: 1\nfidelity: analytic\n", {}, "Estimates are of frames with one view");
+    refused("eyes: 1\n", {"--within", "1%"},
+            "--eyes (or 'eyes' of a study) gives a frame several views");
+    refused("eyes: 1\nfidelity: analytic\n", {},
+            "--eyes (or 'eyes' of a study) gives a frame several views");
     const Folder folder;
     const std::string study = views_study(folder, "crop: 0,0,32x32\naxes: {clock_ghz: [0.5, 1]}\n");
     expect_mistake(said({"explore", study, "--goals", "latency_ms", "--out", folder / "e"}, {}),

@@ -318,9 +318,10 @@ TEST(Evolution, RefusesWhatItCannotDo) {
     };
     refuses({"--search", "luck"}, "halving");
     refuses({"--search", "evolution", "--budget", "1"}, "--budget");
-    refuses({"--search", "evolution", "--rungs", "2"}, "--rungs is an option of --search halving");
-    refuses({"--budget", "9"}, "--budget is an option of --search evolution");
-    refuses({"--population", "9"}, "--population is an option of --search evolution");
+    refuses({"--search", "evolution", "--rungs", "2"},
+            "--rungs is an option of the search by halving, so it needs --search halving.");
+    refuses({"--budget", "9"}, "so it needs --search evolution.");
+    refuses({"--population", "9"}, "so it needs --search evolution.");
     refuses({"--search", "evolution", "--goals", "dram.bytes_read"}, "has an estimate");
     refuses({"--search", "evolution", "--array-only"}, "the arrays alone");
     refuses({"--search", "evolution", "--fidelity", "analytic", "--budget", "9"},

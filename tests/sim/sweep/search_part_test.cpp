@@ -173,7 +173,7 @@ TEST(SearchParts, NameThePartsThatAreMissing) {
               std::string::npos)
         << outcome.err;
     EXPECT_FALSE(fs::exists(folder / "out/explore.json"));
-    expect_mistake(waits({}), "--patience requires --shard");
+    expect_mistake(waits({}), "so it needs --shard.");
     expect_mistake(waits({"--shard", "3/2"}), "must be K/N");
     expect_mistake(waits({"--shard", "auto"}), "needs a task of a job array");
 }

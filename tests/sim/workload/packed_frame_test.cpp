@@ -131,7 +131,7 @@ TEST(HostilePackedFrame, RefusesOptionsAndDesignsThatItDoesNotHold) {
     expect_mistake(degs(with(run, {"--resolution", "4k"})), "--resolution");
     expect_mistake(degs(with(run, {"--frames", "2"})), "only 1 frame is allowed");
     expect_mistake(degs({"run", config("degs-64"), "--out", folder / "out"}),
-                   "--scene is required");
+                   "needs --scene or --workload.");
     expect_mistake(degs({"run", config("degs-64"), "--workload", ""}), "empty name");
     expect_mistake(degs({"run", config("degs-256"), "--workload", file, "--out", folder / "out"}),
                    "needs a frame of 64 px tiles (box), fp32, which the workload does not hold; "

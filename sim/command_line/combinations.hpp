@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Refuses what the rules of the options do not allow. Knows nothing of CLI11, so that studies,
+// whose keys stand for options, are refused by the same rules.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/command_line/option_rules.hpp"
+
+namespace degs::sim {
+
+/// What is known of an option.
+struct OptionState {
+    bool given = false;
+    std::string value{};  ///< its default if it was not given
+    std::string origin{}; ///< where it may come from as well, for the message; empty: nowhere
+};
+using OptionStates = std::function<OptionState(const std::string& option)>;
+
+/// Throws InputError, one sentence with the reason, if one of the rules is broken; `command` is
+/// "degs run".
+void refuse_combinations(const std::string& command, const std::vector<OptionRule>& rules,
+                         const OptionStates& states);
+
+} // namespace degs::sim
