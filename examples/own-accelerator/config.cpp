@@ -57,13 +57,13 @@ std::vector<LossKey> Config::loss_keys() const {
     using Way = LossKey::Way;
     return with(
         {
-            {"terminated", "arrays.skip_ended", Way::Set, "true"},
-            {"answers", "fetching.chunks_in_flight", Way::Raise, kNoLimit, "buffer.chunks"},
-            {"blocked", "pixel_buffer.bytes", Way::Raise, kNoLimit},
-            {"blocked", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
-            {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise, "1024"},
-            {"acknowledgements", "pixel_buffer.bytes", Way::Raise, kNoLimit},
-            {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
+            {"terminated", "arrays.skip_ended", Way::Set, "", "true"},
+            {"answers", "fetching.chunks_in_flight", Way::Raise, "buffer.chunks"},
+            {"blocked", "pixel_buffer.bytes", Way::Raise},
+            {"blocked", "pixel_buffer.readout_pixels", Way::Raise},
+            {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise},
+            {"acknowledgements", "pixel_buffer.bytes", Way::Raise},
+            {"readout", "pixel_buffer.readout_pixels", Way::Raise},
         },
         common_loss_keys(memory));
 }

@@ -34,9 +34,8 @@ public:
     /// std::out_of_range, one sentence, if there is no such initiator.
     tlm::tlm_target_socket<>& in(std::size_t initiator);
 
-    const std::string& memory_name() const; ///< e.g. "lpddr5-6400x256"
-    std::uint64_t capacity() const;         ///< bytes
-    double peak_gb_per_s() const;           ///< 1e9 B/s
+    std::uint64_t capacity() const; ///< bytes
+    double peak_gb_per_s() const;   ///< 1e9 B/s
     /// Bytes that moved for an initiator, in whole bursts.
     std::uint64_t bytes_read(std::size_t initiator) const;
     std::uint64_t bytes_written(std::size_t initiator) const;
@@ -45,7 +44,6 @@ private:
     std::size_t checked(std::size_t initiator) const;
 
     std::unique_ptr<dram::Lpddr5> model_;
-    std::string memory_name_;
     double peak_gb_per_s_ = 0;
 };
 

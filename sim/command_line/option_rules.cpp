@@ -72,9 +72,6 @@ constexpr Row kRows[] = {
      "runs the arrays alone, and the evolution estimates whole accelerators"},
     {"explore", "--patience", kNeeds, "--shard", "is a wait for the other parts"},
     // Platforms and memories.
-    {"soc", "--firmware --limit-ms", kNeeds, "--cpu=riscv", "is for a core that boots"},
-    {"soc", "--load --cores --pattern --reads-per-write --refresh --trace", kNotWith, "--cpu=riscv",
-     "has no meaning on a platform of the accelerator and a core that boots alone"},
     {"memory", "--trace", kNotWith,
      "--pattern --request-bytes --stride-bytes --reads-per-write --seed --requests --no-curve",
      "has requests of its own"},

@@ -91,11 +91,11 @@ std::optional<double> mean_of_frames(const std::vector<std::optional<double>>& v
         sum += value.value_or(0);
         count += value ? 1 : 0;
     }
-    return count == 0 ? std::nullopt : std::optional(sum / ratio_of(count, 1));
+    return count == 0 ? std::nullopt : std::optional(sum / real_of(count));
 }
 
 double nearest_rank(std::vector<double> values, double share) {
-    const long rank = std::lround(std::ceil(share * ratio_of(values.size(), 1) - kDateRounding));
+    const long rank = std::lround(std::ceil(share * real_of(values.size()) - kDateRounding));
     const auto place = values.begin() + (std::max(rank, 1L) - 1);
     std::nth_element(values.begin(), place, values.end());
     return *place;

@@ -67,7 +67,7 @@ MotionPath along_poses(const MotionRequest& request, const Scene& scene, double 
 
 MotionPath along_cameras(const MotionRequest& request, const Scene& scene) {
     const int steps = request.between + 1;
-    const double pairs = ratio_of(scene.cameras.size(), 1) - 1 - request.view.camera;
+    const double pairs = real_of(scene.cameras.size()) - 1 - request.view.camera;
     const double frames = std::max(pairs, 0.0) * steps + 1;
     const int count = checked_count(frames, request.frames);
     const Camera first = camera_of(request.view, scene);

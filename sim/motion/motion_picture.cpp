@@ -92,13 +92,13 @@ void draw_frame(Svg& svg, const Axes& axes) {
 
 /// The thick line goes from P50 to P95, the thin one on to the worst frame.
 void draw_ranks(Svg& svg, const Axes& axes, const Motion& motion) {
-    const double width = (kRankRight - kRankLeft) / ratio_of(motion.designs.size(), 1);
+    const double width = (kRankRight - kRankLeft) / real_of(motion.designs.size());
     for (std::size_t d = 0; d < motion.designs.size(); ++d) {
         if (!motion.designs[d].ranks) {
             continue;
         }
         const LatencyRanks& ranks = *motion.designs[d].ranks;
-        const double x = kRankLeft + width * (ratio_of(d, 1) + 0.5);
+        const double x = kRankLeft + width * (real_of(d) + 0.5);
         const double half = std::min(width / 2 - 2, 8.0);
         svg.line(x, axes.y(ranks.p50), x, axes.y(ranks.worst), colour_of_line(d), 1);
         svg.line(x, axes.y(ranks.p50), x, axes.y(ranks.p95), colour_of_line(d), 5);

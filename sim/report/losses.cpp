@@ -31,7 +31,7 @@ public:
 
     std::vector<Loss> all() const {
         std::vector<Loss> losses;
-        const double total = ratio_of(run_.cycles, 1) * run_.pes;
+        const double total = real_of(run_.cycles) * run_.pes;
         const auto add = [&](const Cause& cause, double slots) {
             if (slots > 0) {
                 losses.push_back({cause.words, slots / total, keys_.of(cause.name)});
@@ -42,23 +42,22 @@ public:
         }
         for (const SlotClass& slot : kSlotClasses) {
             if (slot.slot != Slot::Useful) {
-                add(cause_of(slot), ratio_of(run_.slots[slot.slot], 1));
+                add(cause_of(slot), real_of(run_.slots[slot.slot]));
             }
         }
         const bool any = !run_.window.empty();
         const Cycle first = causes_.before_first();
         const Cycle after =
             any && run_.cycles > run_.window.last ? run_.cycles - run_.window.last - 1 : 0;
-        add(before(first), ratio_of(first, 1) * run_.pes);
-        add({"after the last task", after_cause(ratio_of(after, 1))},
-            ratio_of(after, 1) * run_.pes);
+        add(before(first), real_of(first) * run_.pes);
+        add({"after the last task", after_cause(real_of(after))}, real_of(after) * run_.pes);
         std::stable_sort(losses.begin(), losses.end(),
                          [](const Loss& a, const Loss& b) { return a.share > b.share; });
         return losses;
     }
 
 private:
-    double frames() const { return std::max(1.0, ratio_of(run_.frames.size(), 1)); }
+    double frames() const { return std::max(1.0, real_of(run_.frames.size())); }
 
     /// The last pixels are read out, and then on their way to the memory. Only a memory whose
     /// latency is a key names one for it; LPDDR5 leaves memory.latency_ns without effect.
@@ -74,14 +73,14 @@ private:
     /// Whether the memory takes longer for the pixels of a tile than the buffer that reads them
     /// out.
     bool is_written_slower_than_read_out() const {
-        const double pixels = ratio_of(drawn_pixels(result_), 1) * frames(); // of all views
+        const double pixels = real_of(drawn_pixels(result_)) * frames(); // of all views
         const auto written =
             std::find_if(run_.streams.begin(), run_.streams.end(),
                          [](const StreamUse& s) { return s.name == "frame_buffer"; });
         if (!causes_.has_limited_memory() || pixels == 0 || written == run_.streams.end()) {
             return false;
         }
-        const double bytes = ratio_of(written->bytes_written, 1) / pixels;
+        const double bytes = real_of(written->bytes_written) / pixels;
         return run_.readout_pixels * bytes > run_.memory_gb_per_s / run_.clock_ghz;
     }
 

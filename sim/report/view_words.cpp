@@ -25,10 +25,10 @@ struct Share {
 Share share_of(const AcceleratorResult& run, std::size_t parts) {
     Share sum;
     for (const StreamUse& stream : run.streams) {
-        sum.bytes_read += rate_of(stream.bytes_read, 1);
-        sum.bytes_written += rate_of(stream.bytes_written, 1);
+        sum.bytes_read += real_of(stream.bytes_read);
+        sum.bytes_written += real_of(stream.bytes_written);
     }
-    const double count = rate_of(parts, 1);
+    const double count = real_of(parts);
     return {ratio_of(run.cycles, parts), sum.bytes_read / count, sum.bytes_written / count,
             run.energy.total_nj() / count};
 }

@@ -62,12 +62,12 @@ std::vector<std::pair<std::string, double>> parts_of(const AcceleratorResult& ru
     for (const BufferUse& buffer : run.buffers) {
         if (buffer.depth != 0) {
             const std::string name = "buffers." + buffer.name;
-            parts.emplace_back(name + ".high_water", ratio_of(buffer.high_water, 1));
+            parts.emplace_back(name + ".high_water", real_of(buffer.high_water));
             parts.emplace_back(name + ".high_water_share",
                                ratio_of(buffer.high_water, buffer.depth));
         }
     }
-    const double frames = std::max(1.0, ratio_of(run.frames.size(), 1));
+    const double frames = std::max(1.0, real_of(run.frames.size()));
     for (const cost::BlockEnergy& block : run.energy.blocks()) {
         parts.emplace_back("energy.blocks." + block.name + ".nj_per_frame",
                            (block.dynamic_nj + block.leakage_nj) / frames);

@@ -22,10 +22,10 @@ bool is_peak(const StatDoc& doc) {
 class Collector {
 public:
     void operator()(double& amount) { list.push_back(amount); }
-    void operator()(std::uint64_t& amount) { list.push_back(rate_of(amount, 1)); }
+    void operator()(std::uint64_t& amount) { list.push_back(real_of(amount)); }
     void operator()(Counters& counters) {
         for (const Counters::Counter& counter : counters) {
-            list.push_back(rate_of(counter.value, 1));
+            list.push_back(real_of(counter.value));
         }
     }
     std::vector<double> list;
@@ -62,7 +62,7 @@ private:
 };
 
 double cells(const BufferUse& buffer) {
-    return rate_of(buffer.rings * buffer.depth, 1);
+    return real_of(buffer.rings * buffer.depth);
 }
 
 /// All amounts in their order. Shares become amounts on the way in and shares again on the way out.
@@ -101,9 +101,9 @@ void each_amount(AcceleratorResult& run, Visit& visit) {
 std::vector<double> amounts_of(const AcceleratorResult& result) {
     AcceleratorResult run = result;
     for (BufferUse& buffer : run.buffers) {
-        buffer.mean_fill *= cells(buffer) * rate_of(run.cycles, 1);
+        buffer.mean_fill *= cells(buffer) * real_of(run.cycles);
     }
-    run.memory_utilization *= rate_of(run.memory_window, 1);
+    run.memory_utilization *= real_of(run.memory_window);
     Collector collector;
     each_amount(run, collector);
     return collector.list;
@@ -116,7 +116,7 @@ AcceleratorResult with_amounts(AcceleratorResult shape, const std::vector<double
         throw std::logic_error("a sample has counted other things than its result");
     }
     const auto per = [](double amount, double whole) { return whole > 0 ? amount / whole : 0.0; };
-    const double cycles = rate_of(shape.cycles, 1);
+    const double cycles = real_of(shape.cycles);
     for (StageUse& stage : shape.stages) {
         stage.busy = std::min(1.0, per(stage.busy_cycles, stage.units * cycles));
     }
@@ -124,7 +124,7 @@ AcceleratorResult with_amounts(AcceleratorResult shape, const std::vector<double
         buffer.mean_fill = std::min(1.0, per(buffer.mean_fill, cells(buffer) * cycles));
     }
     shape.memory_utilization =
-        std::min(1.0, per(shape.memory_utilization, rate_of(shape.memory_window, 1)));
+        std::min(1.0, per(shape.memory_utilization, real_of(shape.memory_window)));
     return shape;
 }
 

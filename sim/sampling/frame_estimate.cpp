@@ -49,7 +49,7 @@ std::uint64_t rounded(double value) {
 double bytes_read(const AcceleratorResult& run) {
     double bytes = 0;
     for (const StreamUse& stream : run.streams) {
-        bytes += rate_of(stream.bytes_read, 1);
+        bytes += real_of(stream.bytes_read);
     }
     return bytes;
 }
@@ -57,10 +57,10 @@ double bytes_read(const AcceleratorResult& run) {
 /// The measures that --within can name.
 double value_of(const AcceleratorResult& run, const std::string& path) {
     if (path == "timing.cycles") {
-        return rate_of(run.cycles, 1);
+        return real_of(run.cycles);
     }
     if (path == "slots.useful") {
-        return rate_of(run.slots[Slot::Useful], 1);
+        return real_of(run.slots[Slot::Useful]);
     }
     if (path == "slots.utilization") {
         return ratio_of(run.slots[Slot::Useful], run.slots.total());
@@ -90,7 +90,7 @@ std::map<std::string, double> numbers_of(const AcceleratorResult& run) {
             continue;
         }
         if (const auto* whole = std::get_if<std::uint64_t>(&statistic.value)) {
-            numbers[statistic.path] = rate_of(*whole, 1);
+            numbers[statistic.path] = real_of(*whole);
         } else if (const auto* real = std::get_if<double>(&statistic.value)) {
             numbers[statistic.path] = *real;
         }
@@ -115,9 +115,9 @@ void FrameEstimate::add_block(std::size_t block, std::size_t group, const Window
     std::vector<double> values;
     values.reserve(kSlotClasses.size() + 1);
     for (const SlotClass& slot : kSlotClasses) {
-        values.push_back(rate_of(measured.slots[slot.slot], 1));
+        values.push_back(real_of(measured.slots[slot.slot]));
     }
-    values.push_back(rate_of(measured.total, 1));
+    values.push_back(real_of(measured.total));
     regression_.add(block, group, std::move(values));
 }
 
@@ -138,9 +138,9 @@ void FrameEstimate::end(const AcceleratorResult& earlier, const AcceleratorResul
 FrameEstimate::Slots FrameEstimate::edge_slots() const {
     Slots slots{};
     for (std::size_t i = 0; i < kTotal; ++i) {
-        slots[i] = rate_of(edges_.slots[kSlotClasses[i].slot], 1);
+        slots[i] = real_of(edges_.slots[kSlotClasses[i].slot]);
     }
-    slots[kTotal] = rate_of(edges_.total, 1);
+    slots[kTotal] = real_of(edges_.total);
     return slots;
 }
 
@@ -170,7 +170,7 @@ AcceleratorResult FrameEstimate::frame_of(const Slots& slots,
                                           const std::vector<double>& amounts) const {
     AcceleratorResult frame = raw_;
     const std::uint64_t pes = frame.pes;
-    const Cycle blending = rounded(slots[kTotal] / rate_of(pes, 1));
+    const Cycle blending = rounded(slots[kTotal] / real_of(pes));
     const Cycle after_last = raw_.window.empty() ? 0 : raw_.cycles - raw_.window.last - 1;
     const Cycle after_run = std::max(raw_.memory_window, raw_.cycles) - raw_.cycles;
     for (std::size_t i = 0; i < kTotal; ++i) {

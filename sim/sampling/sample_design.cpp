@@ -58,14 +58,6 @@ std::vector<std::size_t> sorted_by_price(const std::vector<TileWork>& work,
 
 } // namespace
 
-std::size_t SampleDesign::tiles_of(const std::vector<std::size_t>& group) const {
-    std::size_t tiles = 0;
-    for (const std::size_t block : group) {
-        tiles += blocks[block].count;
-    }
-    return tiles;
-}
-
 SampleDesign design_sample(const std::vector<TileWork>& work, const SampleSizes& sizes,
                            std::uint64_t seed) {
     SampleDesign design;

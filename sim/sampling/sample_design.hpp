@@ -30,8 +30,6 @@ struct SampleDesign {
     /// Positions in `blocks`, in the order of expected work: a tile whose list takes long to sort
     /// must not follow tiles that leave no time for it, if its neighbours would not.
     std::vector<std::vector<std::size_t>> groups;
-
-    std::size_t tiles_of(const std::vector<std::size_t>& group) const;
 };
 
 /// `work`: of the tiles that list a splat, in the order in which they are rendered. The same seed

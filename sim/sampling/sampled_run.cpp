@@ -147,7 +147,6 @@ public:
     }
 
     bool more() const { return next_ < design_.groups.size(); }
-    std::size_t tiles_next() const { return design_.tiles_of(design_.groups[next_]); }
 
     void simulate_group() {
         const std::size_t group = next_++;

@@ -47,28 +47,28 @@ bool LossKeys::can_move(const LossKey& knob) const {
     if (result_.accelerator.array_only && key.rfind("memory.", 0) == 0) {
         return false;
     }
-    if (knob.way == Way::Set) {
-        const std::string text = now->is_string() ? now->get<std::string>() : now->dump();
-        return text != knob.limit;
-    }
-    const double limit = std::stod(knob.limit);
-    const double present = now->get<double>();
-    return knob.way == Way::Raise ? present < limit : present > limit;
+    const std::string text = now->is_string() ? now->get<std::string>() : now->dump();
+    return knob.way != Way::Set || text != knob.value;
 }
 
-// Whether the design allows some step, a factor or its square for a linked key.
+// Whether the design allows some step, a factor or its square for a linked key. A key at the end of
+// its range has none: what leads beyond is refused.
 bool LossKeys::allows(const LossKey& knob) const {
     const std::string key = knob.key, linked = knob.linked;
     if (knob.way == Way::Set) {
-        return allows({key + "=" + knob.limit});
+        return allows({key + "=" + knob.value});
     }
-    const auto setting = [&](const std::string& name, double factor) {
+    const auto stepped = [&](const std::string& name, double factor) {
         const double now = value(name)->get<double>();
-        const double to =
-            knob.way == Way::Raise ? std::max(now, 1.0) * factor : std::floor(now / factor);
-        return name + "=" + decimal_text(to);
+        return knob.way == Way::Raise ? std::max(now, 1.0) * factor : std::floor(now / factor);
+    };
+    const auto setting = [&](const std::string& name, double factor) {
+        return name + "=" + decimal_text(stepped(name, factor));
     };
     for (const double factor : {2.0, 4.0, 8.0, 16.0}) {
+        if (stepped(key, factor) == value(key)->get<double>()) {
+            return false; // 0 cannot be lowered
+        }
         const std::string first = setting(key, factor);
         if (linked.empty() ? allows({first})
                            : allows({first, setting(linked, factor)}) ||
@@ -107,7 +107,7 @@ std::vector<std::string> LossKeys::of(const std::string& cause) const {
         if (cause == knob.cause && can_move(knob) && is_movable(key) && !is_idle(key)) {
             keys.push_back(knob.way == Way::Raise   ? "raise " + key
                            : knob.way == Way::Lower ? "lower " + key
-                                                    : key + "=" + knob.limit);
+                                                    : key + "=" + knob.value);
         }
     }
     return keys;

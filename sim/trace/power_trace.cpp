@@ -65,7 +65,7 @@ bool is_track_of(const std::string& track, const std::string& unit) {
 
 void add(Weights& weights, const std::vector<std::uint64_t>& sums) {
     for (std::size_t i = 0; i < std::min(weights.size(), sums.size()); ++i) {
-        weights[i] += ratio_of(sums[i], 1);
+        weights[i] += real_of(sums[i]);
     }
 }
 
@@ -74,7 +74,7 @@ Weights time_of(const AcceleratorResult& run) {
     Weights cycles(run.timeline.steps(), 0);
     for (std::size_t i = 0; i < cycles.size(); ++i) {
         const Cycle begin = std::min(i * run.timeline.step, run.cycles);
-        cycles[i] = ratio_of(std::min(begin + run.timeline.step, run.cycles) - begin, 1);
+        cycles[i] = real_of(std::min(begin + run.timeline.step, run.cycles) - begin);
     }
     return cycles;
 }
@@ -132,7 +132,7 @@ class Spreader {
 public:
     explicit Spreader(const AcceleratorResult& run) : time_(time_of(run)) {
         constexpr double kMwPerW = 1e3;
-        mw_per_nj_ = kMwPerW * run.clock_ghz / ratio_of(run.timeline.step, 1); // nJ / ns = W
+        mw_per_nj_ = kMwPerW * run.clock_ghz / real_of(run.timeline.step); // nJ / ns = W
     }
     void add(PowerSeries& series, double nj, const Weights& weights) const {
         const bool known = sum_of(weights) > 0;

@@ -30,17 +30,17 @@ Cycle busy_time(const TileRecord& tile) {
 
 constexpr Measured kMeasured[] = {
     {"list_length", "Splats in the list of a tile",
-     [](const TileRecord& t) { return ratio_of(t.splats, 1); }},
+     [](const TileRecord& t) { return real_of(t.splats); }},
     {"fragments", "Useful fragments of a tile",
-     [](const TileRecord& t) { return ratio_of(t.activity.slots[Slot::Useful], 1); }},
+     [](const TileRecord& t) { return real_of(t.activity.slots[Slot::Useful]); }},
     {"cycles", "Cycles from the first task of a tile to its last",
-     [](const TileRecord& t) { return ratio_of(busy_time(t), 1); }},
+     [](const TileRecord& t) { return real_of(busy_time(t)); }},
     {"residence", "Cycles from the first task of a tile until its pixels are read out",
      [](const TileRecord& t) {
          const ActiveWindow& window = t.activity.window;
          return window.empty() || t.activity.read_out < window.first
                     ? 0.0
-                    : ratio_of(t.activity.read_out - window.first, 1);
+                    : real_of(t.activity.read_out - window.first);
      }},
     {"useful_share", "Useful share of the PE-cycles that a tile took",
      [](const TileRecord& t) {
@@ -146,9 +146,7 @@ TileMaps tile_maps_of(const RunResult& result) {
     }
     for (std::size_t s = 0; s < kSlotClasses.size(); ++s) {
         add(slot_name(s), std::string("PE-cycles of a tile: ") + kSlotClasses[s].name,
-            [s](const TileRecord& t) {
-                return ratio_of(t.activity.slots[kSlotClasses[s].slot], 1);
-            });
+            [s](const TileRecord& t) { return real_of(t.activity.slots[kSlotClasses[s].slot]); });
     }
     return maps;
 }

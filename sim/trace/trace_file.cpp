@@ -77,7 +77,7 @@ public:
         std::vector<double> values;
         values.reserve(sums.size());
         for (const std::uint64_t sum : sums) {
-            values.push_back(ratio_of(sum, 1) / step_ * factor);
+            values.push_back(real_of(sum) / step_ * factor);
         }
         counter(name, group, values);
     }
@@ -103,7 +103,7 @@ private:
         text_ += R"({"name":)" + quoted(name) + R"(,"ph":")" + phase + R"(","pid":)" +
                  std::to_string(group) + R"(,"tid":)" + std::to_string(track);
     }
-    std::string time(Cycle date) const { return shortest(ratio_of(date, 1) / cycles_per_us_); }
+    std::string time(Cycle date) const { return shortest(real_of(date) / cycles_per_us_); }
 
     const TimelineRecord& timeline_;
     double step_;

@@ -263,14 +263,4 @@ PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const Number
     return blame;
 }
 
-std::vector<std::string> blamed_operations() {
-    std::vector<std::string> names;
-    names.reserve(kOperations.size());
-    for (const Operation& operation : kOperations) {
-        names.emplace_back(operation.name);
-    }
-    names.emplace_back("projection");
-    return names;
-}
-
 } // namespace degs

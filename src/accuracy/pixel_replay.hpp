@@ -57,7 +57,4 @@ PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const Number
 PixelBlame blame_pixel(const FrameWorkload& reference, const FrameWorkload& projected, int x, int y,
                        const NumberSet& set, StopRule stop);
 
-/// The names that PixelBlame::operation can have.
-std::vector<std::string> blamed_operations();
-
 } // namespace degs

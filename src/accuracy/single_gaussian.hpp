@@ -5,7 +5,6 @@
 #include <random>
 #include <vector>
 
-#include "base/ratio.hpp"
 #include "splat/pixels/quantized_row.hpp"
 
 namespace degs {
@@ -44,7 +43,6 @@ struct AlphaError {
     double mean() const;
     /// Standard deviation of the Gaussians' means.
     double spread() const;
-    double flip_share() const { return ratio_of(flips, support); }
 };
 
 /// A splat in the window whose corner is (0, 0): standard deviations in px along its axes, the

@@ -69,7 +69,7 @@ Block BillOfMaterials::sram_of(const SramRow& row, std::int64_t bytes,
                                double bytes_per_cycle) const {
     Block block;
     block.kind = Block::Kind::Sram;
-    block.size = rate_of(bytes, 1);
+    block.size = real_of(bytes);
     block.area_mm2 = row.area_mm2 / row.bytes * block.size;
     block.energy_pj = technology_.energy_pj(row);
     block.full_rate = bytes_per_cycle;

@@ -30,7 +30,6 @@ Lpddr5::Lpddr5(const sc_core::sc_module_name& name, const std::string& file, std
         !problem.empty()) {
         throw InputError(std::string(this->name()) + ": " + problem + ".");
     }
-    memory_name_ = config.name;
     peak_gb_per_s_ = config.peak_gb_per_s();
     model_ = std::make_unique<dram::Lpddr5>("dram", config, Timebase{}, initiators);
 }
@@ -48,10 +47,6 @@ std::size_t Lpddr5::checked(std::size_t initiator) const {
 
 tlm::tlm_target_socket<>& Lpddr5::in(std::size_t initiator) {
     return model_->in[checked(initiator)];
-}
-
-const std::string& Lpddr5::memory_name() const {
-    return memory_name_;
 }
 
 std::uint64_t Lpddr5::capacity() const {

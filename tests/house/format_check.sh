@@ -4,6 +4,6 @@
 set -euo pipefail
 
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../..}"
-mapfile -t files < <(find src sim tests examples -type f \( -name '*.hpp' -o -name '*.cpp' \) | sort)
+mapfile -t files < <(find src sim tests examples -type f \( -name '*.hpp' -o -name '*.cpp' -o -name '*.inc' \) | sort)
 clang-format --dry-run -Werror --ferror-limit=3 "${files[@]}"
 echo "clang-format: ${#files[@]} files are formatted"

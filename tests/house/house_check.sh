@@ -10,11 +10,12 @@ root=$(realpath "${2:-$(dirname "${BASH_SOURCE[0]}")/../..}")
 cd "$root"
 violations=0
 
-# Files of the given folders that end in one of our C++ suffixes; folders may be missing.
+# Files of the given folders that end in one of our C++ suffixes; .inc are those that are included
+# several times. Folders may be missing.
 sources() {
     local folders=() folder
     for folder in "$@"; do [[ -d $folder ]] && folders+=("$folder"); done
-    [[ ${#folders[@]} -eq 0 ]] || find "${folders[@]}" -type f \( -name '*.hpp' -o -name '*.cpp' \) | sort
+    [[ ${#folders[@]} -eq 0 ]] || find "${folders[@]}" -type f \( -name '*.hpp' -o -name '*.cpp' -o -name '*.inc' \) | sort
 }
 
 # forbid REASON PATTERN FILES...: no line may match the extended regular expression.
@@ -90,7 +91,7 @@ check_printing() {
 }
 
 check_namespaces() {
-    mapfile -t files < <(sources include src sim tests | grep '\.hpp$' || true)
+    mapfile -t files < <(sources include src sim tests | grep -E '\.(hpp|inc)$' || true)
     forbid "no using namespace in a header" '^[[:space:]]*using[[:space:]]+namespace\b' "${files[@]}"
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/random/habits.hpp"
 #include "tests/random/promises.hpp"
 
 namespace degs::trials {
@@ -42,7 +43,7 @@ void check_dates(const Finished& run, Complaints& complaints) {
         last = images[f].finished;
     }
     complaints.equal("the run ends with its last frame", r.cycles, last);
-    if (run.config.ends_with_its_pixels()) {
+    if (habits_of(run.config).ends_with_its_pixels) {
         complaints.at_most("the blending window ends before the run",
                            r.window.empty() ? 0 : r.window.last, r.cycles);
     }
@@ -145,7 +146,7 @@ void check_tiles(const Finished& run, Complaints& complaints) {
     complaints.equal("tiles rendered and background",
                      run.result.tiles + run.result.background_tiles, tiles);
     complaints.at_most("tiles cancelled", run.result.tiles_cancelled, run.result.tiles);
-    if (run.config.keeps_pixel_order()) {
+    if (habits_of(run.config).keeps_pixel_order) {
         complaints.equal("hazards", run.result.hazards, std::uint64_t{0});
     }
 }

@@ -6,6 +6,7 @@
 #include "accuracy/data_path_renderer.hpp"
 #include "splat/frame/tile_window.hpp"
 #include "splat/reference/reference_renderer.hpp"
+#include "tests/random/habits.hpp"
 #include "tests/random/promises.hpp"
 #include "tests/splat/pixels/checked_image.hpp"
 
@@ -19,8 +20,9 @@ using test::checked_image;
 BlendedImage image_of_rows(const FrameWorkload& work, const AcceleratorConfig& config) {
     DataPathRender options;
     options.numbers = config.data_path();
-    options.rows_in_columns = config.pixel_search().rows_of_tile;
-    options.parsing = config.pixel_search().how == PixelSearch::How::Solve;
+    const Habits habits = habits_of(config);
+    options.rows_in_columns = habits.rows_of_tile;
+    options.parsing = habits.search == Habits::Search::Solve;
     DataPathRenderer renderer(work, options);
     BlendedImage expected{renderer.render(all_tiles(work))};
     expected.useful = renderer.counts().useful;
@@ -85,9 +87,9 @@ std::vector<std::string> wrong_images(const Finished& run) {
         return {};
     }
     const DataPathOptions numbers = run.config.data_path();
-    const PixelSearch::How how = run.config.pixel_search().how;
-    const bool parses = how == PixelSearch::How::Solve;
-    const bool by_rows = how != PixelSearch::How::Test;
+    const Habits::Search search = habits_of(run.config).search;
+    const bool parses = search == Habits::Search::Solve;
+    const bool by_rows = search != Habits::Search::Test;
     const bool exact = is_exact(numbers, parses);
     // Coupled arrays look at the pixels near an ellipse only. With formats of the user's own, where
     // level or q saturate, pixels farther away would pass the check, too.

@@ -43,7 +43,6 @@ struct Config : TiledConfig<Config> {
     int tile_contexts() const override { return engines.count * contexts(); }
     TileCoupling tile_coupling(bool array_only) const override;
     /// Queues of rows whose pixels have ended run dry later.
-    bool ends_with_its_pixels() const override { return false; }
     std::vector<LossKey> loss_keys() const override;
     cost::BillOfMaterials bill() const override;
     /// The activity of the blocks of the engines for that work, without the Pixel Buffer.

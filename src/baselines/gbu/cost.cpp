@@ -64,15 +64,14 @@ std::vector<cost::Activity> Config::activity(const Work& work) const {
 void Engine::collect_activity(AcceleratorResult& result) const {
     using E = TileEngine::Stats;
     using R = ReuseCache::Stats;
-    const auto real = [](std::uint64_t count) { return rate_of(count, 1); };
     Work work;
-    work.generating = real(sum_of(engines_, &E::generating));
-    work.slots = real(result.slots.executed());
-    work.keys_moved = real(front_end().keys_moved());
-    work.splats_fetched = real(records_fetched());
+    work.generating = real_of(sum_of(engines_, &E::generating));
+    work.slots = real_of(result.slots.executed());
+    work.keys_moved = real_of(front_end().keys_moved());
+    work.splats_fetched = real_of(records_fetched());
     work.entries_moved =
-        real(2 * (sum_of(engines_, &E::entries) + sum_of(engines_, &E::entries_dropped)));
-    work.lookups = real(sum_of(caches(), &R::hits) + sum_of(caches(), &R::misses));
+        real_of(2 * (sum_of(engines_, &E::entries) + sum_of(engines_, &E::entries_dropped)));
+    work.lookups = real_of(sum_of(caches(), &R::hits) + sum_of(caches(), &R::misses));
     add_activity(result, config_.activity(work));
     add_pixel_activity(result, job(), config_.pixel_bytes());
 }

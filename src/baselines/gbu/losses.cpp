@@ -8,19 +8,19 @@ std::vector<LossKey> Config::loss_keys() const {
     using Way = LossKey::Way;
     std::vector<LossKey> rows; // without a rate all rows are solved at once
     if (engines.rows_per_cycle != 0) {
-        rows.push_back({"row_generation", "engines.rows_per_cycle", Way::Raise, "1024"});
+        rows.push_back({"row_generation", "engines.rows_per_cycle", Way::Raise});
     }
     const std::vector<LossKey> own = with(
         {
-            {"row_generation", "engines.count", Way::Raise, kNoLimit},
-            {"gaps", "engines.queue_depth", Way::Raise, "4096"},
-            {"answers", "fetching.chunks_in_flight", Way::Raise, kNoLimit, "list_buffer.chunks"},
-            {"boundary", "engines.end_probe", Way::Set, "false"},
-            {"blocked", "pixel_buffer.bytes", Way::Raise, kNoLimit},
-            {"blocked", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
-            {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise, "1024"},
-            {"acknowledgements", "pixel_buffer.bytes", Way::Raise, kNoLimit},
-            {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
+            {"row_generation", "engines.count", Way::Raise},
+            {"gaps", "engines.queue_depth", Way::Raise},
+            {"answers", "fetching.chunks_in_flight", Way::Raise, "list_buffer.chunks"},
+            {"boundary", "engines.end_probe", Way::Set, "", "false"},
+            {"blocked", "pixel_buffer.bytes", Way::Raise},
+            {"blocked", "pixel_buffer.readout_pixels", Way::Raise},
+            {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise},
+            {"acknowledgements", "pixel_buffer.bytes", Way::Raise},
+            {"readout", "pixel_buffer.readout_pixels", Way::Raise},
         },
         common_loss_keys(memory));
     return with(rows, own);

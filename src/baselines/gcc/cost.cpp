@@ -65,17 +65,16 @@ std::vector<cost::Activity> Config::activity(const Work& work, bool array_only) 
 }
 
 void Engine::collect_activity(AcceleratorResult& result) const {
-    const auto real = [](std::uint64_t count) { return rate_of(count, 1); };
     Work work;
     if (grouping_) {
-        work.means = real(grouping_->stats().gaussians);
-        work.entries = real(sum_of(projection_, &ProjectionStage::Stats::entries));
-        work.shapes = real(sum_of(projection_, &ProjectionStage::Stats::shapes));
-        work.coloured = real(sum_of(colour_, &ColourStage::Stats::coloured));
+        work.means = real_of(grouping_->stats().gaussians);
+        work.entries = real_of(sum_of(projection_, &ProjectionStage::Stats::entries));
+        work.shapes = real_of(sum_of(projection_, &ProjectionStage::Stats::shapes));
+        work.coloured = real_of(sum_of(colour_, &ColourStage::Stats::coloured));
     } else {
-        work.records_fetched = real(sum_of(fetchers_, &SplatFetcher::Stats::records));
+        work.records_fetched = real_of(sum_of(fetchers_, &SplatFetcher::Stats::records));
     }
-    work.slots = real(result.slots.executed());
+    work.slots = real_of(result.slots.executed());
     add_activity(result, config_.activity(work, !grouping_));
     add_pixel_activity(result, job_, config_.pixel_bytes());
 }

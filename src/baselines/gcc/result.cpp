@@ -48,9 +48,9 @@ void Engine::collect_preparation(AcceleratorResult& result) const {
         first += static_cast<double>(
             std::min<std::uint64_t>(config_.projection.group, array->first_entries()));
     }
-    const double frames = std::max(1.0, ratio_of(result.frames.size(), 1));
+    const double frames = std::max(1.0, real_of(result.frames.size()));
     const auto share_of = [&](std::uint64_t gaussians) {
-        return gaussians == 0 ? 0 : std::min(1.0, first * frames / ratio_of(gaussians, 1));
+        return gaussians == 0 ? 0 : std::min(1.0, first * frames / real_of(gaussians));
     };
     const double listed = share_of(sum_of(projection_, &ProjectionStage::Stats::entries));
     const double projected = share_of(sum_of(projection_, &ProjectionStage::Stats::shapes));
@@ -73,8 +73,8 @@ void Engine::collect_idle_keys(AcceleratorResult& result) const {
     constexpr std::size_t kFewViews = 8; // for each cluster: one that comes late decides
     if (grouping_) {
         const Grouping::Stats& g = grouping_->stats();
-        const bool means = ratio_of(g.busy - g.entry_cycles, 1) > kMatters * ratio_of(g.busy, 1);
-        const bool entries = ratio_of(g.busy - g.mean_cycles, 1) > kMatters * ratio_of(g.busy, 1);
+        const bool means = real_of(g.busy - g.entry_cycles) > kMatters * real_of(g.busy);
+        const bool entries = real_of(g.busy - g.mean_cycles) > kMatters * real_of(g.busy);
         const std::string mean_key = "grouping.means_per_cycle";
         const std::string entry_key = "grouping.entries_per_cycle";
         if (!means) {

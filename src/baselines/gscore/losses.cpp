@@ -8,15 +8,15 @@ std::vector<LossKey> Config::loss_keys() const {
     using Way = LossKey::Way;
     return with(
         {
-            {"gaps", "buffer.bytes", Way::Raise, kNoLimit},
-            {"answers", "sorting.count", Way::Raise, "64", "buffer.bytes"},
-            {"boundary", "array.subtile_skip", Way::Set, "exact"},
-            {"terminated", "array.termination_cycles", Way::Lower, "1"},
-            {"blocked", "pixel_buffer.bytes", Way::Raise, kNoLimit},
-            {"blocked", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
-            {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise, "1024"},
-            {"acknowledgements", "pixel_buffer.bytes", Way::Raise, kNoLimit},
-            {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
+            {"gaps", "buffer.bytes", Way::Raise},
+            {"answers", "sorting.count", Way::Raise, "buffer.bytes"},
+            {"boundary", "array.subtile_skip", Way::Set, "", "exact"},
+            {"terminated", "array.termination_cycles", Way::Lower},
+            {"blocked", "pixel_buffer.bytes", Way::Raise},
+            {"blocked", "pixel_buffer.readout_pixels", Way::Raise},
+            {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise},
+            {"acknowledgements", "pixel_buffer.bytes", Way::Raise},
+            {"readout", "pixel_buffer.readout_pixels", Way::Raise},
         },
         common_loss_keys(memory));
 }

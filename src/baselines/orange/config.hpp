@@ -48,7 +48,6 @@ struct Config : TiledConfig<Config> {
     int tile_contexts() const override { return cores.count * contexts(); }
     TileCoupling tile_coupling(bool array_only) const override;
     /// Products of a tile whose pixels have ended are finished.
-    bool ends_with_its_pixels() const override { return false; }
     std::vector<LossKey> loss_keys() const override;
     cost::BillOfMaterials bill() const override;
     /// The activity of the blocks of the cores for that work, without the Pixel Buffer.

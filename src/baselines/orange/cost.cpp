@@ -72,12 +72,11 @@ std::vector<cost::Activity> Config::activity(const Work& work) const {
 
 void Engine::collect_activity(AcceleratorResult& result) const {
     using V = VectorUnit::Stats;
-    const auto real = [](std::uint64_t count) { return rate_of(count, 1); };
     Work work;
-    work.slots = real(result.slots.executed());
-    work.formed = real(sum_of(vector_units_, &V::splats));
-    work.blended = real(sum_of(vector_units_, &V::splats_blended));
-    work.keys_moved = real(front_end().keys_moved());
+    work.slots = real_of(result.slots.executed());
+    work.formed = real_of(sum_of(vector_units_, &V::splats));
+    work.blended = real_of(sum_of(vector_units_, &V::splats_blended));
+    work.keys_moved = real_of(front_end().keys_moved());
     add_activity(result, config_.activity(work));
     add_pixel_activity(result, job(), config_.pixel_bytes());
 }

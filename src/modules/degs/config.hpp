@@ -57,11 +57,6 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     int tile_size_px() const override { return tile_size; }
     int tile_contexts() const override { return clusters * contexts(); }
     TileCoupling tile_coupling(bool array_only) const override;
-    PixelSearch pixel_search() const override {
-        return {span.parsing ? PixelSearch::How::Solve : PixelSearch::How::Box,
-                slicing.rows == SlicedRows::Tile};
-    }
-    bool keeps_pixel_order() const override { return scheduler.scoreboard; }
     std::vector<LossKey> loss_keys() const override;
     /// Keys that did not limit a run, out of those of the window of waiting segments: a bank had up
     /// to `high_water` segments, and `feature_waits` of the entries of the Feature Buffer, 0 to 1,

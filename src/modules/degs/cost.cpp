@@ -185,23 +185,22 @@ void Degs::collect_activity(AcceleratorResult& result) const {
     using G = GaussianSlicingUnit::Stats;
     using S = SpanStage::Stats;
     using B = IssueBank::Stats;
-    const auto real = [](std::uint64_t count) { return rate_of(count, 1); };
     DegsWork work;
-    work.slicing_cycles = real(sum_of(blocks_.slicing, &G::busy));
-    work.issue_cycles = real(sum_of(blocks_.banks, &B::busy));
-    work.splats_fetched = real(sum_of(blocks_.fetchers, &SplatFetcher::Stats::records));
-    work.splats_sliced = real(sum_of(blocks_.slicing, &G::splats));
-    work.keys_moved = real(front_end_->keys_moved());
-    work.supplied = supply_ ? real(supply_->stats().records_moved()) : 0;
-    work.rows_sent = real(sum_of(blocks_.slicing, &G::rows));
-    work.rows = real(sum_of(blocks_.spans, &S::rows));
+    work.slicing_cycles = real_of(sum_of(blocks_.slicing, &G::busy));
+    work.issue_cycles = real_of(sum_of(blocks_.banks, &B::busy));
+    work.splats_fetched = real_of(sum_of(blocks_.fetchers, &SplatFetcher::Stats::records));
+    work.splats_sliced = real_of(sum_of(blocks_.slicing, &G::splats));
+    work.keys_moved = real_of(front_end_->keys_moved());
+    work.supplied = supply_ ? real_of(supply_->stats().records_moved()) : 0;
+    work.rows_sent = real_of(sum_of(blocks_.slicing, &G::rows));
+    work.rows = real_of(sum_of(blocks_.spans, &S::rows));
     for (const auto& bank : blocks_.banks) {
-        work.features += real(bank->features().stats().entries);
+        work.features += real_of(bank->features().stats().entries);
     }
-    work.segments_issued = real(sum_of(blocks_.banks, &B::segments_issued));
-    work.segments_dropped = real(sum_of(blocks_.banks, &B::segments_dropped));
-    work.packets = real(sum_of(blocks_.packing, &PackingUnit::Stats::packets));
-    work.slots = real(result.slots.executed());
+    work.segments_issued = real_of(sum_of(blocks_.banks, &B::segments_issued));
+    work.segments_dropped = real_of(sum_of(blocks_.banks, &B::segments_dropped));
+    work.packets = real_of(sum_of(blocks_.packing, &PackingUnit::Stats::packets));
+    work.slots = real_of(result.slots.executed());
     add_activity(result, config_.activity(work));
     add_pixel_activity(result, job_, config_.pixel_bytes());
 }

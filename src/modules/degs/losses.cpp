@@ -19,42 +19,39 @@ constexpr const char* kIssues = "scheduler.issue_width";
 std::vector<LossKey> DegsConfig::loss_keys() const {
     using Way = LossKey::Way;
     std::vector<LossKey> keys{
-        {"slicing", "slicing.count", Way::Raise, "64"},
-        {"slicing", "slicing.splats_per_cycle", Way::Raise, "16"},
-        {"span", "span.count", Way::Raise, "256"},
-        {"terminated", "scheduler.termination", Way::Set, "pixel"},
-        {"ports", "pixel_buffer.sram_banks", Way::Raise, kNoLimit},
-        {"ports", "packing.ports", Way::Set, "0"},
-        {"blocked", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
-        {"blocked", "pixel_buffer.bytes", Way::Raise, kNoLimit},
-        {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise, "1024"},
-        {"acknowledgements", "pixel_buffer.bytes", Way::Raise, kNoLimit},
-        {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
+        {"slicing", "slicing.count", Way::Raise},
+        {"slicing", "slicing.splats_per_cycle", Way::Raise},
+        {"span", "span.count", Way::Raise},
+        {"terminated", "scheduler.termination", Way::Set, "", "pixel"},
+        {"ports", "pixel_buffer.sram_banks", Way::Raise},
+        {"ports", "packing.ports", Way::Set, "", "0"},
+        {"blocked", "pixel_buffer.readout_pixels", Way::Raise},
+        {"blocked", "pixel_buffer.bytes", Way::Raise},
+        {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise},
+        {"acknowledgements", "pixel_buffer.bytes", Way::Raise},
+        {"readout", "pixel_buffer.readout_pixels", Way::Raise},
     };
-    keys.push_back(span.parsing ? LossKey{"boundary", "pipeline.span_ends", Way::Set, "exact"}
-                                : LossKey{"boundary", "span.parsing", Way::Set, "true"});
+    keys.push_back(span.parsing ? LossKey{"boundary", "pipeline.span_ends", Way::Set, "", "exact"}
+                                : LossKey{"boundary", "span.parsing", Way::Set, "", "true"});
     if (spans_are_pooled()) {
-        keys.push_back({"span", "span.rows_per_cycle", Way::Raise, "64"});
+        keys.push_back({"span", "span.rows_per_cycle", Way::Raise});
     }
     // A cluster among others is granted tiles one by one, and waits for the first chunk of each.
     if (clusters == 1) {
-        keys.push_back({"answers", "fetching.chunks_in_flight", Way::Raise, kNoLimit,
-                        "gaussian_buffer.bytes"});
+        keys.push_back(
+            {"answers", "fetching.chunks_in_flight", Way::Raise, "gaussian_buffer.bytes"});
     }
     // A bank issues no more than it takes in.
     const int ahead = scheduler.segments_per_cycle - scheduler.issue_width;
-    keys.push_back(ahead == 0
-                       ? LossKey{"packing", kIssues, Way::Raise, kNoLimit, kTakes}
-                       : LossKey{"packing", ahead < 0 ? kTakes : kIssues, Way::Raise, kNoLimit});
+    keys.push_back(ahead == 0 ? LossKey{"packing", kIssues, Way::Raise, kTakes}
+                              : LossKey{"packing", ahead < 0 ? kTakes : kIssues, Way::Raise});
     const char* const queue = queue_key();
-    const char* const most = scheduler.queue_segments_per_pe == 0 ? kNoLimit : "256";
     for (const char* cause : {"gaps", "conflict"}) {
-        keys.push_back({cause, "slicing.interleave", Way::Raise, "16"});
-        keys.push_back({cause, queue, Way::Raise, most});
-        keys.push_back({cause, queue, Way::Raise, most, kFeatures});
+        keys.push_back({cause, "slicing.interleave", Way::Raise});
+        keys.push_back({cause, queue, Way::Raise});
+        keys.push_back({cause, queue, Way::Raise, kFeatures});
     }
-    keys.push_back(
-        {"conflict", "scheduler.reuse_cycles", Way::Lower, "1", "array.writeback_cycles"});
+    keys.push_back({"conflict", "scheduler.reuse_cycles", Way::Lower, "array.writeback_cycles"});
     return with(keys, common_loss_keys(memory));
 }
 

@@ -253,10 +253,10 @@ void Degs::collect_idle_keys(AcceleratorResult& result) const {
 /// Collects keys that limited nothing among the Issue Banks' rates and the number of tile streams.
 void Degs::collect_idle_streams(AcceleratorResult& result) const {
     using B = IssueBank::Stats;
-    const double issued = ratio_of(sum_of(blocks_.banks, &B::segments_issued), 1);
-    const double taken = issued + ratio_of(sum_of(blocks_.banks, &B::segments_dropped), 1);
-    const double cycles = ratio_of(result.window.cycles(), 1) * ratio_of(blocks_.banks.size(), 1);
-    const double issuing = ratio_of(sum_of(blocks_.banks, &B::busy), 1);
+    const double issued = real_of(sum_of(blocks_.banks, &B::segments_issued));
+    const double taken = issued + real_of(sum_of(blocks_.banks, &B::segments_dropped));
+    const double cycles = real_of(result.window.cycles()) * real_of(blocks_.banks.size());
+    const double issuing = real_of(sum_of(blocks_.banks, &B::busy));
     const auto use_of_rate = [](double segments, double time, int rate) {
         return time > 0 ? segments / time / rate : 0;
     };
@@ -269,7 +269,7 @@ void Degs::collect_idle_streams(AcceleratorResult& result) const {
     const bool few_tiles_come =
         std::any_of(result.stages.begin(), result.stages.end(), [&](const StageUse& stage) {
             return (stage.name == "sorting" || stage.name == "fetching") &&
-                   stage.busy_cycles > kBusy * stage.units * ratio_of(result.window.cycles(), 1);
+                   stage.busy_cycles > kBusy * stage.units * real_of(result.window.cycles());
         });
     constexpr std::uint64_t kFewTiles = 24; // of a cluster: streams would wait for the longest
     const bool few_tiles = job_.tiles.size() < kFewTiles * config_.clusters * result.frames.size();

@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::array<const char*, 10> kRequired{"x",       "y",     "z",     "opacity", "scale_0",
                                                 "scale_1", "rot_0", "rot_1", "rot_2",   "rot_3"};
-constexpr int kDegree4Rest = 24; ///< coefficients per channel
 
 /// Files that hold Gaussians, but not in a form that can be drawn from these properties alone.
 struct Foreign {

@@ -21,7 +21,7 @@ template <std::size_t kCount>
 Value one_plus(const std::array<double, kCount>& k, double q) {
     Value sum;
     for (std::size_t i = kCount; i-- > 0;) {
-        sum.slope = sum.slope * q + rate_of(i + 1, 1) * k[i];
+        sum.slope = sum.slope * q + real_of(i + 1) * k[i];
         sum.value = (sum.value + k[i]) * q;
     }
     sum.value += 1;

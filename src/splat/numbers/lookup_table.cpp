@@ -35,18 +35,6 @@ double power_of_two(int exponent) {
     return value;
 }
 
-const char* function_name(TableFunction function) {
-    switch (function) {
-    case TableFunction::SqrtOneMinus:
-        return "sqrt";
-    case TableFunction::ExpHalf:
-        return "exp";
-    case TableFunction::Exp2:
-        break;
-    }
-    return "exp2";
-}
-
 /// Largest distance between the curve and its chord over [a, b]. The functions have no inflection,
 /// so one golden section search finds it.
 template <class Curve>
@@ -82,16 +70,6 @@ void TableSpec::describe(ConfigVisitor& visitor) {
         describe_format(visitor, "argument", argument,
                         "q log2(e) / 2, in front of the table of a natural exponent");
     }
-}
-
-std::string TableSpec::cost_key() const {
-    const std::string key = std::string("lut.") + function_name(function);
-    if (interpolation == Interpolation::Exact) {
-        return key + ".exact." + values.name();
-    }
-    const bool linear = interpolation == Interpolation::Linear;
-    return key + (linear ? ".linear." : ".nearest.") + std::to_string(entries) + "x" +
-           std::to_string(values.storage_bits() * (linear ? 2 : 1));
 }
 
 std::uint64_t LookupTable::filled() {

@@ -41,8 +41,6 @@ struct TableSpec {
     NumberFormat argument;
 
     void describe(ConfigVisitor& visitor);
-    /// Key for a cost model, e.g. "lut.exp2.linear.16x32".
-    std::string cost_key() const;
 };
 inline TableSpec table_of(TableFunction function) {
     TableSpec spec;

@@ -133,9 +133,8 @@ struct LaneRounding {
 
 /// Rounds an array in place, every value once.
 using RoundFunction = void (*)(const LaneRounding& rounding, float* values, std::size_t count);
-/// With the widest vectors of the machine it runs on; the same bits at any width.
-RoundFunction round_function();
-/// All variants this build has, narrow first; those the machine cannot run are left out. For tests.
+/// All variants this build has, narrow first, which give the same bits; those the machine cannot
+/// run are left out. For tests.
 std::vector<RoundFunction> round_variants();
 
 } // namespace degs

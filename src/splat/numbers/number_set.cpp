@@ -70,46 +70,42 @@ void require_ranges(const NumberSet& set, ConfigVisitor& visitor) {
 
 const std::vector<NumberStage>& number_stages() {
     static const std::vector<NumberStage> stages = {
-        {"projection", &S::projection, kSigned, "projection", "multiply-add.",
+        {"projection", &S::projection, kSigned, "projection",
          "all that makes splats out of Gaussians; fp64 shares the reference's"},
         // Splat record.
-        {"mean", &S::mean, kSigned, "", "", "mu_x, mu_y in the record, px", {"mu_x", "mu_y"}},
-        {"slope", &S::slope, kSigned, "", "", "m in the record", {"m"}},
-        {"c_prime", &S::c_prime, kUnsigned, "", "", "C' in the record", {}, "C'"},
-        {"radius", &S::radius, kUnsigned, "", "", "r_x in the record, px", {"r_x"}},
+        {"mean", &S::mean, kSigned, "", "mu_x, mu_y in the record, px", {"mu_x", "mu_y"}},
+        {"slope", &S::slope, kSigned, "", "m in the record", {"m"}},
+        {"c_prime", &S::c_prime, kUnsigned, "", "C' in the record", {}, "C'"},
+        {"radius", &S::radius, kUnsigned, "", "r_x in the record, px", {"r_x"}},
         {"inverse_radius2",
          &S::inverse_radius2,
          kUnsigned,
          "",
-         "",
          "1 / r_y^2 in the record",
          {"1/r_y^2"}},
-        {"conic", &S::conic, kUnsigned, "", "", "A in the record and the PE", {"A"}, "B"},
-        {"q_threshold", &S::q_threshold, kUnsigned, "", "", "Q_th in the record", {"Q_th"}},
+        {"conic", &S::conic, kUnsigned, "", "A in the record and the PE", {"A"}, "B"},
+        {"q_threshold", &S::q_threshold, kUnsigned, "", "Q_th in the record", {"Q_th"}},
         {"colour",
          &S::colour,
          kUnsigned,
          "",
-         "",
          "red, green, blue in the record and the PE",
          {"red", "green", "blue"}},
         // Span Unit.
-        {"distance", &S::distance, kSigned, "span.distance", "add.", "dy and x - x_c, px"},
-        {"square", &S::square, kSigned, "span.square", "multiply.", "products in the Span Unit"},
-        {"ratio", &S::ratio, kUnsigned, "span.ratio", "multiply.", "x = dy^2 / r_y^2 and 1 - x"},
-        {"edge", &S::edge, kSigned, "span.edge", "multiply-add.", "m dy, x_c, w and the ends, px"},
-        {"level", &S::level, kUnsigned, "span.level", "multiply-add.", "terms of g0"},
-        {"g0", &S::g0, kUnsigned, "span_vector.g0", "register.", "g0 in the Span Vector"},
-        {"d0", &S::d0, kSigned, "span_vector.d0", "register.", "d0 in the Span Vector"},
+        {"distance", &S::distance, kSigned, "span.distance", "dy and x - x_c, px"},
+        {"square", &S::square, kSigned, "span.square", "products in the Span Unit"},
+        {"ratio", &S::ratio, kUnsigned, "span.ratio", "x = dy^2 / r_y^2 and 1 - x"},
+        {"edge", &S::edge, kSigned, "span.edge", "m dy, x_c, w and the ends, px"},
+        {"level", &S::level, kUnsigned, "span.level", "terms of g0"},
+        {"g0", &S::g0, kUnsigned, "span_vector.g0", "g0 in the Span Vector"},
+        {"d0", &S::d0, kSigned, "span_vector.d0", "d0 in the Span Vector"},
         // Blending PE and Pixel Buffer.
-        {"term", &S::term, kSigned, "pe.term", "multiply.", "n d0 and A n(n-1)"},
-        {"q", &S::q, kUnsigned, "pe.q", "add.", "q of a pixel"},
-        {"alpha", &S::alpha, kUnsigned, "pe.alpha", "register.", "alpha"},
-        {"transmittance", &S::transmittance, kUnsigned, "pe.transmittance", "multiply.",
-         "T and 1 - alpha"},
-        {"weight", &S::weight, kUnsigned, "pe.weight", "multiply.",
-         "alpha T and its products with the colour"},
-        {"sum", &S::sum, kUnsigned, "pe.sum", "add.", "accumulated colour"}};
+        {"term", &S::term, kSigned, "pe.term", "n d0 and A n(n-1)"},
+        {"q", &S::q, kUnsigned, "pe.q", "q of a pixel"},
+        {"alpha", &S::alpha, kUnsigned, "pe.alpha", "alpha"},
+        {"transmittance", &S::transmittance, kUnsigned, "pe.transmittance", "T and 1 - alpha"},
+        {"weight", &S::weight, kUnsigned, "pe.weight", "alpha T and its products with the colour"},
+        {"sum", &S::sum, kUnsigned, "pe.sum", "accumulated colour"}};
     return stages;
 }
 
@@ -182,23 +178,6 @@ int record_bits(const NumberSet& set) {
 
 int pixel_bits(const NumberSet& set) {
     return set.transmittance.storage_bits() + 3 * set.sum.storage_bits();
-}
-
-std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set) {
-    std::vector<std::pair<std::string, std::string>> keys = {
-        {"record", "bits." + std::to_string(record_bits(set))},
-        {"span.sqrt", set.sqrt.cost_key()},
-        {"pe.exp", set.exp.cost_key()}};
-    for (const NumberStage& stage : number_stages()) {
-        const std::string unit = stage.unit;
-        const bool halves =
-            set.multiplier == IntegerMultiplier::HalfLookup && stage.format == &S::term;
-        const std::string operation = halves ? "half-lookup." : stage.operation;
-        if (!unit.empty()) {
-            keys.emplace_back(unit, operation + (set.*stage.format).name());
-        }
-    }
-    return keys;
 }
 
 } // namespace degs

@@ -109,14 +109,13 @@ struct NumberSet {
 struct NumberStage {
     const char* key; ///< in configurations
     NumberFormat NumberSet::*format;
-    bool is_signed;        ///< values may be negative
-    const char* unit;      ///< for a cost model; empty if it is stored only
-    const char* operation; ///< that makes its values, for a cost model: "multiply."
+    bool is_signed;   ///< values may be negative
+    const char* unit; ///< that makes its values; empty if it is stored only
     const char* meaning;
     std::vector<const char*> fields = {}; ///< of the splat record in this format
     const char* direct_field = nullptr;   ///< one more, unless C' dy^2 is taken from x
 };
-/// In the order of the data path. describe(), uniform sets, records, costs and the checks of ranges
+/// In the order of the data path. describe(), uniform sets, records and the checks of ranges
 /// go through this list.
 const std::vector<NumberStage>& number_stages();
 
@@ -131,9 +130,6 @@ std::vector<RecordField> splat_record(const NumberSet& set);
 int record_bits(const NumberSet& set);
 /// Bits of a pixel's state: transmittance and three colours.
 int pixel_bits(const NumberSet& set);
-
-/// The cost of each unit, for a cost model, as unit and key, e.g. {"pe.q", "add.uq3.13"}.
-std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set);
 
 /// Named formats of a Gaussian's values in memory: "fp32", "fp16", "tuned"; and those of one of
 /// them, as "key=value" of NumberSet::describe.

@@ -31,9 +31,4 @@ std::vector<RoundFunction> round_variants() {
     return runnable<RoundFunction>({&narrow_rounding::round_array, &wide_rounding::round_array});
 }
 
-RoundFunction round_function() {
-    static const RoundFunction widest = round_variants().back();
-    return widest;
-}
-
 } // namespace degs

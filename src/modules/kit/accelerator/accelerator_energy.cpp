@@ -20,7 +20,7 @@ std::optional<double> dram_nj(const cost::Technology::Dram& dram, const Accelera
         read += stream.bytes_read;
         written += stream.bytes_written;
     }
-    return bus_nj(dram, rate_of(read, 1), rate_of(written, 1), result.memory_gb_per_s, seconds);
+    return bus_nj(dram, real_of(read), real_of(written), result.memory_gb_per_s, seconds);
 }
 
 } // namespace

@@ -17,30 +17,29 @@ const char* bandwidth_key(const MainMemoryConfig& memory) {
 
 std::vector<LossKey> memory_loss_keys(const MainMemoryConfig& memory) {
     if (memory.model == MemoryModel::Lpddr5) {
-        return {{"memory", bandwidth_key(memory), Way::Raise, "64"}};
+        return {{"memory", bandwidth_key(memory), Way::Raise}};
     }
-    std::vector<LossKey> keys{{"memory", bandwidth_key(memory), Way::Raise, "100000"}};
+    std::vector<LossKey> keys{{"memory", bandwidth_key(memory), Way::Raise}};
     for (const char* const cause : {"latency", "answers", "acknowledgements"}) {
-        keys.push_back({cause, "memory.latency_ns", Way::Lower, "0"});
+        keys.push_back({cause, "memory.latency_ns", Way::Lower});
     }
     return keys;
 }
 
 std::vector<LossKey> common_loss_keys(const MainMemoryConfig& memory) {
     const char* const rate = bandwidth_key(memory);
-    const char* const most = memory_loss_keys(memory).front().limit;
-    return with(memory_loss_keys(memory),
-                {
-                    {"memory and projection", rate, Way::Raise, most, "projection.count"},
-                    {"memory and binning", rate, Way::Raise, most, "binning.pairs_per_cycle"},
-                    {"projection", "projection.count", Way::Raise, "64"},
-                    {"binning", "binning.pairs_per_cycle", Way::Raise, kNoLimit},
-                    {"projection and binning", "projection.count", Way::Raise, "64",
-                     "binning.pairs_per_cycle"},
-                    {"sorting", "sorting.count", Way::Raise, "64"},
-                    {"sorting", "sorting.keys_per_cycle", Way::Raise, kNoLimit},
-                    {"fetching", "fetching.chunk", Way::Raise, "1024"},
-                });
+    return with(
+        memory_loss_keys(memory),
+        {
+            {"memory and projection", rate, Way::Raise, "projection.count"},
+            {"memory and binning", rate, Way::Raise, "binning.pairs_per_cycle"},
+            {"projection", "projection.count", Way::Raise},
+            {"binning", "binning.pairs_per_cycle", Way::Raise},
+            {"projection and binning", "projection.count", Way::Raise, "binning.pairs_per_cycle"},
+            {"sorting", "sorting.count", Way::Raise},
+            {"sorting", "sorting.keys_per_cycle", Way::Raise},
+            {"fetching", "fetching.chunk", Way::Raise},
+        });
 }
 
 } // namespace degs

@@ -9,7 +9,8 @@
 
 namespace degs {
 
-/// A key moves a loss until it has come to `limit`: a number, or the value to set.
+/// A key moves a loss until it has come to the end of its range, see describe(), or has the value
+/// to set.
 struct LossKey {
     enum class Way { Raise, Lower, Set };
 
@@ -24,14 +25,12 @@ struct LossKey {
     const char* cause;
     const char* key;
     Way way;
-    const char* limit;
     const char* linked = ""; ///< key that has to move with it
+    const char* value = "";  ///< to set
 
     /// "KEY" or "KEY and KEY"
     std::string name() const { return *linked == 0 ? key : std::string(key) + " and " + linked; }
 };
-
-inline constexpr const char* kNoLimit = "1e9"; ///< but the range of the key
 
 /// Keys of the memory model in use.
 std::vector<LossKey> memory_loss_keys(const MainMemoryConfig& memory);

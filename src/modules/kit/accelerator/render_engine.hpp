@@ -83,18 +83,6 @@ struct TileCoupling {
     }
 };
 
-/// How an array finds the pixels that a splat covers.
-struct PixelSearch {
-    enum class How {
-        Test, ///< it tests pixels near the ellipse one by one, in blocks of its own
-        Box,  ///< it tests every pixel of the rows of the splat's box
-        Solve ///< it solves each row for the first and the last pixel
-    };
-    How how = How::Test;
-    bool rows_of_tile =
-        false; ///< rows are those that the ellipse has inside the tile, not all of the box
-};
-
 /// The configuration of any accelerator. A new accelerator derives one of these and is
 /// registered with add_accelerator(); docs/adding-an-accelerator.md is a worked example.
 struct AcceleratorConfig {
@@ -130,12 +118,6 @@ struct AcceleratorConfig {
     virtual int tile_contexts() const = 0;
     /// What makes tiles depend on each other; with `array_only` memory takes no time.
     virtual TileCoupling tile_coupling(bool array_only) const = 0;
-    virtual PixelSearch pixel_search() const { return {}; }
-    /// A pixel is read only after its last update has been written. False: images may be wrong, and
-    /// the result counts hazards.
-    virtual bool keeps_pixel_order() const { return true; }
-    /// No unit of the array works once all pixels are in memory.
-    virtual bool ends_with_its_pixels() const { return true; }
     /// Keys that move losses of PE-cycles, without those that other keys make idle. Of several keys
     /// for a cause the one that moves most on close-ups stands first. Empty: reports name losses
     /// without keys.

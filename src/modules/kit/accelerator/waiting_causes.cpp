@@ -8,7 +8,7 @@
 namespace degs {
 
 double WaitingCauses::frames() const {
-    return std::max(1.0, ratio_of(run_.frames.size(), 1));
+    return std::max(1.0, real_of(run_.frames.size()));
 }
 
 /// Share of the window of the array in which the data bus was busy.
@@ -18,27 +18,27 @@ double WaitingCauses::memory_in_window() const {
     }
     double all = 0, beside = 0;
     for (const StreamUse& stream : run_.streams) {
-        const double bytes = ratio_of(stream.bytes_read + stream.bytes_written, 1);
+        const double bytes = real_of(stream.bytes_read + stream.bytes_written);
         all += bytes;
         beside += bytes * later(stream.prepares, frames());
     }
-    const double busy = run_.memory_utilization * ratio_of(run_.memory_window, 1);
-    return all > 0 ? busy * beside / all / ratio_of(run_.window.cycles(), 1) : 0;
+    const double busy = run_.memory_utilization * real_of(run_.memory_window);
+    return all > 0 ? busy * beside / all / real_of(run_.window.cycles()) : 0;
 }
 
 /// Share of the window of the array in which the units of a stage were busy.
 double WaitingCauses::in_window(const StageUse& stage) const {
     return run_.window.empty() ? 0
                                : stage.busy_cycles / stage.units * later(stage.prepares, frames()) /
-                                     ratio_of(run_.window.cycles(), 1);
+                                     real_of(run_.window.cycles());
 }
 
 std::vector<WaitingCauses::Part> WaitingCauses::preparation() const {
-    const double cycles = ratio_of(before_first(), 1);
+    const double cycles = real_of(before_first());
     std::vector<Part> parts;
     double bytes = 0;
     for (const StreamUse& stream : run_.streams) {
-        bytes += stream.prepares * ratio_of(stream.bytes_read + stream.bytes_written, 1);
+        bytes += stream.prepares * real_of(stream.bytes_read + stream.bytes_written);
     }
     if (has_limited_memory()) {
         parts.push_back(
@@ -78,13 +78,13 @@ std::string WaitingCauses::starved_for() const {
 }
 
 std::optional<double> WaitingCauses::lost_for_memory() const {
-    const double all = ratio_of(run_.cycles, 1) * run_.pes;
+    const double all = real_of(run_.cycles) * run_.pes;
     if (!has_limited_memory() || all <= 0) {
         return {};
     }
-    double lost = prepares_for_memory() ? ratio_of(before_first(), 1) * run_.pes : 0;
-    lost += starved_for() == "memory" ? ratio_of(run_.slots[Slot::Starved], 1) : 0;
-    lost += is_memory_busy() ? ratio_of(run_.slots[Slot::Blocked], 1) : 0;
+    double lost = prepares_for_memory() ? real_of(before_first()) * run_.pes : 0;
+    lost += starved_for() == "memory" ? real_of(run_.slots[Slot::Starved]) : 0;
+    lost += is_memory_busy() ? real_of(run_.slots[Slot::Blocked]) : 0;
     return lost / all;
 }
 

@@ -156,7 +156,7 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     const std::vector<Listed> tiles = tiles_by_length(frame, order);
     const AnalyticModel::Blocks blocks = model.blocks();
     const EntrySizes sizes = entry_sizes(frame, blocks.step);
-    const int apart = rows_apart(model, sizes, rate_of(frame.tile_pairs(), 1));
+    const int apart = rows_apart(model, sizes, real_of(frame.tile_pairs()));
     const std::vector<std::size_t> chosen =
         choose(tiles, model.visits_per_entry() + sizes.visits / apart);
 

@@ -14,8 +14,8 @@ void ArrayAccelerator::collect_engines(AcceleratorResult& result) const {
                                    records_fetched() + records_cancelled()});
     collect_array(result);
     add_activity(result, "gaussian_buffer",
-                 rate_of(2 * records_fetched(), 1) * traffic.splat_bytes +
-                     rate_of(front_end().keys_moved(), 1) * traffic.list_entry_bytes);
+                 real_of(2 * records_fetched()) * traffic.splat_bytes +
+                     real_of(front_end().keys_moved()) * traffic.list_entry_bytes);
     add_pixel_activity(result, job(), parts_.pixel_bytes);
 }
 

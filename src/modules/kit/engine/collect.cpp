@@ -26,7 +26,7 @@ void add_activity(AcceleratorResult& result, const char* block, double operation
 void add_pixel_activity(AcceleratorResult& result, const RenderJob& job, double pixel_bytes) {
     const std::uint64_t tasks = result.slots.executed() / result.slots_per_fragment;
     const std::uint64_t accesses = tasks + result.fragments() + job.tiles.pixels();
-    add_activity(result, "pixel_buffer", rate_of(accesses, 1) * pixel_bytes);
+    add_activity(result, "pixel_buffer", real_of(accesses) * pixel_bytes);
 }
 
 void collect_frames(AcceleratorResult& result, const RenderJob& job, const PixelBuffers& buffers,

@@ -93,7 +93,7 @@ inline void add_activity(AcceleratorResult& result, const std::vector<cost::Acti
     result.activity.insert(result.activity.end(), blocks.begin(), blocks.end());
 }
 inline void add_activity(AcceleratorResult& result, const char* block, std::uint64_t operations) {
-    add_activity(result, block, rate_of(operations, 1));
+    add_activity(result, block, real_of(operations));
 }
 /// Adds the activity of "pixel_buffer": a task reads the state of its pixel and writes it if it
 /// blends, and every pixel of the tiles is read out once. The slots of `result` must be known.

@@ -134,7 +134,7 @@ void TileFrontEnd::collect(AcceleratorResult& result) const {
               hierarchical_.size(), hierarchical, Counters().add(hierarchical_));
     if (binner_->config().more_pairs() != 0) {
         add_activity(result, "binning",
-                     rate_of(binner_->stats().busy, 1) * binner_->config().more_pairs());
+                     real_of(binner_->stats().busy) * binner_->config().more_pairs());
     }
     if (binner_->config().sram_bytes() != 0) {
         BufferUse& buffer =
