@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t kColumn = 26; ///< where explanations begin
 constexpr std::size_t kWidth = 80;
 
-/// Two columns; a long first one gets a line of its own.
+/// Two columns; a long first one gets lines of its own.
 std::string entry(const std::string& what, const std::string& meaning) {
-    std::string line = "  " + what;
+    std::string line = "  " + wrapped(what, 4, kWidth - 4);
     if (characters(line) + 2 > kColumn) {
         line += "\n" + std::string(kColumn, ' ');
     } else {

@@ -25,6 +25,9 @@ struct Row {
     const char* beside = "";
 };
 
+constexpr const char* kSeveralViews =
+    "gives a frame several views, and estimates are of frames with one view";
+
 constexpr Row kRows[] = {
     // The view.
     {"run,workload export", "", kNeeds, "--scene --workload", "draws a view"},
@@ -45,17 +48,19 @@ constexpr Row kRows[] = {
      "names the cameras of all views of a frame"},
     {"run", "--maps", kNotWith, "--foveation", "shows the tiles of one view"},
     // Simulations, samples and estimates.
-    {"", "--within", kNotWith, "--fidelity=strict --fidelity=sampled",
+    {"run", "--within", kNotWith, "--fidelity=strict --fidelity=sampled",
      "says how many tiles are simulated"},
-    {"run,compare,sweep,explore", "--frames!=1 --trace --block-log --memory-trace --maps", kNotWith,
+    {"run", "--frames!=1 --trace --block-log --memory-trace --maps", kNotWith,
      "--within --fidelity=sampled", "needs every tile"},
+    {"compare,sweep,explore", "--frames!=1", kNotWith, "--within", "needs every tile"},
     {"run,compare,sweep,explore",
      "--frames!=1 --trace --block-log --memory-trace --maps --explain --array-only --within",
      kNotWith, "--fidelity=analytic", "needs a simulation"},
     {"motion", "--array-only", kNotWith, "--fidelity=analytic", "needs a simulation"},
-    {"", "--eyes --views --foveation", kNotWith,
-     "--within --fidelity=sampled --fidelity=analytic --what-if",
-     "gives a frame several views, and estimates are of frames with one view"},
+    {"run", "--eyes --views --foveation", kNotWith,
+     "--within --fidelity=sampled --fidelity=analytic --what-if", kSeveralViews},
+    {"compare,sweep,explore,motion", "--eyes --views", kNotWith, "--within --fidelity=analytic",
+     kSeveralViews},
     {"run", "--what-if", kNotWith, "--array-only", "estimates whole frames"},
     {"run,soc", "--trace-step", kNeeds, "--trace", "divides the timeline"},
     // Studies.

@@ -207,14 +207,14 @@ TEST_P(OptionRules, StandInTheHelp) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, OptionRules, ::testing::ValuesIn(kCommands),
-                         [](const auto& info) {
-                             std::string name = info.param.first;
+                         [](const auto& command) {
+                             std::string name = command.param.first;
                              std::replace(name.begin(), name.end(), ' ', '_');
                              return name;
                          });
 
 /// Each option of each rule is one of a command that the rule is for.
-TEST(OptionRules, NameOptionsThatAreThere) {
+TEST(OptionRuleTable, NamesOptionsThatAreThere) {
     std::map<std::string, std::string> helps;
     for (const auto& [command, more] : kCommands) {
         helps[command] = help_of(command);
@@ -249,7 +249,7 @@ std::string refusal_of(const OptionRule& rule, const std::map<std::string, Optio
     return "";
 }
 
-TEST(OptionRules, SayWhichOptionsTheyRefuse) {
+TEST(OptionRuleTable, SaysWhichOptionsARuleRefuses) {
     const OptionRule rule{{}, {{"--a", ""}, {"--n", "1", true}}, false, {{"--f", "v"}}, "is so",
                           ""};
     EXPECT_EQ(refusal_of(rule, {{"--a", {true}}, {"--f", {true, "v"}}}),
