@@ -54,13 +54,14 @@ public:
         head_ = &front_->date;
         free_ = &tail_->date;
         if (time.timeline != nullptr) {
+            in_timeline_ = true;
             time.timeline->join(*this);
         }
     }
 
     const Stats& stats() const { return stats_; }
-    /// True if a log or a foreign block looks at what passes.
-    bool attended() const { return attended_; }
+    /// True if a log, a foreign block or a timeline looks at what passes.
+    bool attended() const { return attended_ || in_timeline_; }
     const char* fifo_name() const override { return sc_core::sc_object::name(); }
     Use use() const override {
         return {stats_.items, stats_.occupied_cycles, &stats_.full_cycles, &stats_.empty_cycles};
@@ -475,6 +476,7 @@ private:
     std::unique_ptr<Process> foreign_reader_;
     mutable bool foreign_listens_ = false; // somebody asked for ok_to_get() or ok_to_put()
     mutable bool attended_ = false;        // by foreign blocks or by a log
+    bool in_timeline_ = false;
     LoggedSide puts_, takes_, departures_;
     mutable sc_core::sc_event foreign_item_;
     mutable sc_core::sc_event foreign_room_;

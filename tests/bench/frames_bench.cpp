@@ -100,6 +100,25 @@ void by_design(benchmark::State& state, const std::string& design, const View& v
     state.counters["ns/fragment"] = of_other.ns_per_fragment();
 }
 
+/// Time per fragment on degs-64 with `more` over that without.
+void by_option(benchmark::State& state, const std::vector<std::string>& more, const View& view,
+               double limit) {
+    const Folder cache, results;
+    std::vector<std::string> changed = with(more, "--no-reference");
+    if (more.front() == "--trace") {
+        changed.insert(changed.begin() + 1, (results.path() / "trace.json").string());
+    }
+    Times of_plain, of_changed;
+    for (auto iteration : state) {
+        (void)iteration;
+        of_plain.add(run_design("degs-64", view, {"--no-reference"}, cache.path()));
+        of_changed.add(run_design("degs-64", view, changed, cache.path()));
+        state.SetIterationTime(of_plain.sim_s + of_changed.sim_s);
+    }
+    report_ratio(state, of_changed.ns_per_fragment() / of_plain.ns_per_fragment(), limit);
+    state.counters["ns/fragment"] = of_changed.ns_per_fragment();
+}
+
 /// Time of a frame with LPDDR5 over that with the bus, both of 204.8 GB/s.
 void by_memory(benchmark::State& state, const View& view, double limit) {
     const Folder cache;
@@ -131,6 +150,22 @@ void add_over_reference(const std::string& name, const View& view) {
         add_ratio("exact over reference/" + name + "/" + set,
                   [view, set = std::string(set), limit = limit](benchmark::State& state) {
                       over_reference(state, view, set, limit);
+                  });
+    }
+}
+
+/// What takes packets apart, or follows them: the aim is 1.3.
+void add_by_option(const View& view) {
+    const std::pair<const char*, std::vector<std::string>> options[] = {
+        {"packing.ports=2", {"--set", "packing.ports=2"}},
+        {"pixel_buffer.ports=1", {"--set", "pixel_buffer.ports=1"}},
+        {"scheduler.select_cycles=2", {"--set", "scheduler.select_cycles=2"}},
+        {"packing.reorganisation=false", {"--set", "packing.reorganisation=false"}},
+        {"--trace", {"--trace"}}};
+    for (const auto& [name, more] : options) {
+        add_ratio("time per fragment, an option over none/" + std::string(name),
+                  [view, more = more](benchmark::State& state) {
+                      by_option(state, more, view, 1.6);
                   });
     }
 }
@@ -173,6 +208,7 @@ void register_frames() {
     add_by_memory(brief ? "mostly empty" : "mostly empty, 4K",
                   {one, 1, brief ? close : std::vector<std::string>{"--resolution", "4k"}}, 4);
     add_by_memory("close-up", small, 2.5);
+    add_by_option(small);
     for (const std::string design : {"degs-x-64"}) {
         for (const int camera : {2, 1}) {
             const View view{object, camera, small.size};

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cost/logic_laws.hpp"
-#include "modules/degs/scheduler/segment_queue.hpp"
+#include "modules/degs/scheduler/issue_bank.hpp"
 
 namespace degs {
 

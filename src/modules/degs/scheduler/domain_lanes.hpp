@@ -102,6 +102,11 @@ public:
         });
         return std::uint64_t{length} << 32U | key;
     }
+    /// The domain that has this key, of those of one tile.
+    int domain_of(std::uint32_t key) const {
+        const auto* const place = std::find(keys_, keys_ + size_, key);
+        return static_cast<int>(place - keys_);
+    }
     /// Cycles after `date` until one of the domains with segments may be touched, if none may at
     /// that date; kNever if none has segments.
     __attribute__((always_inline)) Cycle until_next(Cycle date) const {

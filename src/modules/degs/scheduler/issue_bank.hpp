@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <initializer_list>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <systemc>
@@ -11,11 +11,10 @@
 #include "config/config.hpp"
 #include "modules/degs/array/feature_buffer.hpp"
 #include "modules/degs/array/termination_grain.hpp"
+#include "modules/degs/scheduler/bank_log.hpp"
 #include "modules/degs/scheduler/bank_stream.hpp"
 #include "modules/degs/scheduler/issue_trace.hpp"
 #include "modules/degs/scheduler/packing_unit.hpp"
-#include "modules/degs/scheduler/pick_pipeline.hpp"
-#include "modules/degs/scheduler/segment_queue.hpp"
 #include "modules/degs/scheduler/segmenter.hpp"
 #include "modules/degs/span_engine/span_unit.hpp"
 #include "modules/kit/job/message_rings.hpp"
@@ -25,17 +24,21 @@
 
 namespace degs {
 
-class DrawnBank;
+class BankCycles;
+
+/// Which ready conflict domain issues first. `RoundRobin`: the next one after the last
+/// that issued. `Oldest`: the one whose head segment arrived first. `Deepest`: the one
+/// with most segments waiting.
+enum class DomainScan { RoundRobin, Oldest, Deepest };
 
 /// One Issue Bank of the Packing Scheduler (paper, Sec. IV-B): takes the row spans of its rows in
 /// depth order, cuts them at fixed strides (Segmenter), and issues segments to its Packing Unit,
 /// each as soon as its conflict domain (row x segment) may be updated again. Inside a domain order
 /// is kept; across domains any ready one may go. Segments of terminated regions are dropped.
 ///
-/// In cycle t the bank takes terminations and freed contexts dated <= t, accepts segments, and
-/// issues segments. Tiles come in one stream, or in several at once: spans are then taken from the
-/// streams in turn, a tile enters when it has its context of the Pixel Buffer, and the scan rule
-/// also chooses among the streams.
+/// Tiles come in one stream, or in several at once: spans are then taken from the streams in turn, a
+/// tile enters when it has its context of the Pixel Buffer, and the scan rule also chooses among the
+/// streams. BankCycles says what happens in a cycle.
 class IssueBank : public sc_core::sc_module, public LoggedBlock {
 public:
     struct Config {
@@ -118,109 +121,31 @@ public:
     const FeatureBuffer& features() const { return features_; }
 
 private:
-    static constexpr std::uint32_t kAllPixels = ~0U;
-
     void end_of_elaboration() override;
     void start_of_simulation() override;
     void start_log();
-    void log_tile(std::size_t event, TileNumber number, std::initializer_list<int> more) const;
     void run();
-    /// `single`: one tile stream from one Span Unit, whose loop asks for no others.
-    template <bool single>
-    void run_cycles();
-    void see_terminations();
-    void see_contexts();
-    // What is rare stays out of the loop over cycles, which then keeps more in registers.
-    [[gnu::noinline]] void list_started();
-    [[gnu::noinline]] void end_pixels(const Termination& message);
-    std::uint32_t end_pixels(SegmentQueue::Tile& tile, int domain, std::uint32_t mask) const;
-
-    // Intake.
-    enum class Taken { Nothing, End, Span };
-    template <bool single>
-    void accept(Cycle now);
-    template <bool single>
-    bool open_span(Cycle now);
-    template <bool single>
-    Taken take_from(BankStream& stream, Cycle now);
-    template <bool single>
-    BankStream::Input* earliest_input(BankStream& stream);
-    [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
-    [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number, Cycle now);
-    bool cut_segment();
-    /// True if another segment of the span can be cut or dropped at once.
-    bool can_cut() const;
-    static bool takes(const BankStream& stream, const BankStream::Input& input) {
-        return input.turn == stream.entering && stream.enterable;
-    }
-    std::size_t end_of_intake(const BankStream& stream) const {
-        return stream_count_ == 1 ? stream.oldest + tiles_in_flight_ : stream.startable;
-    }
-
-    // Issue.
-    bool issue(Cycle now);
-    int issue_segments(Cycle now);
-    [[gnu::noinline]] int issue_chosen(Cycle now);
-    [[gnu::noinline]] void choose(Cycle now);
-    BankStream* choose_stream(Cycle slot);
-    bool find_ready(BankStream& stream, Cycle slot);
-    BankStream* first_ready(Cycle slot);
-    BankStream* least_ready(Cycle slot);
-    bool issue_one(Cycle now, SegmentQueue::Tile& tile, int domain);
-    bool finish_tiles();
-    [[gnu::noinline]] void finish_tiles(BankStream& stream);
-
-    bool over() const { return tiles_.over() && closing_ == 0; }
-
-    // Dates.
-    Slot idle_cause() const;
-    Cycle next_ready(Cycle now) const;
-    Cycle next_date(Cycle now);
-    bool watch_inputs(Cycle now);
-
-    SegmentQueue::Tile& tile_at(const BankStream& stream, std::size_t turn) {
-        return queue_.tile(turn, stream.index);
-    }
 
     Config config_;
     const RenderJob& job_;
     int index_;
     PackingUnit& packing_;
-    int contexts_;        // of a stream
-    int tiles_in_flight_; // of a single stream
-    bool by_task_;        // TerminationGrain::Task
-    bool sees_pixels_;    // not TerminationGrain::Segment
-    bool fills_;          // filling a Feature Buffer entry takes time
+    int contexts_; // of a stream
     std::vector<BankStream> streams_;
-    std::size_t stream_count_;                 // theirs, at hand in the hot loop
-    int spans_per_cycle_;                      // that the crossbar delivers
-    bool contexts_owed_ = false;               // a stream has fewer contexts than it may have
-    std::vector<SegmentQueue::Tile*> started_; // that may issue: stream by stream, oldest first
-    std::size_t closing_ = 0;                  // tiles of which nothing more will be taken
+    int spans_per_cycle_; // that the crossbar delivers
     DatedFifo<Termination>* terminations_ = nullptr; // the ring behind `terminated`
     Process self_;
     Segmenter segmenter_;
-    SegmentQueue queue_;
-    PickPipeline pipeline_;
     FeatureBuffer features_;
-    SegmentQueue::Tile* cut_tile_ = nullptr; // of the span that is cut
-    BankStream* next_stream_;                // whose span is taken next
-    int spans_left_ = 0;                     // that may be taken in this cycle
-    BankStream* issued_stream_;              // that issued last
     TileEnd tiles_;
-    std::uint64_t sequence_ = 0; // segments so far
-    bool no_room_ = false;       // a ready segment waits for room in the Packing Buffer
-    bool width_limited_ = false;
-    Slot width_cause_;               // what limits the width
-    bool features_full_ = false;     // a span waits for a Feature Buffer entry
-    std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
+    Slot width_cause_; // what limits the width
     Stats stats_;
     IssueTrace* trace_ = nullptr;
     IssueTrace logged_issues_;
     EventLog* log_ = nullptr;
-    std::size_t tile_event_ = 0, over_event_ = 0;
+    std::optional<BankLog> tile_log_;
     SpanStage* spans_ = nullptr;
-    std::unique_ptr<DrawnBank> drawn_bank_; // what runs in its place, if anything does
+    std::unique_ptr<BankCycles> cycles_;
 };
 
 } // namespace degs

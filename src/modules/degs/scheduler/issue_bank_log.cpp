@@ -28,7 +28,7 @@ void IssueBank::start_log() {
         {"granted", config_.granted},
         {"contexts", contexts_},
         {"first_context", config_.first_context},
-        {"tiles_in_flight", tiles_in_flight_},
+        {"tiles_in_flight", config_.tiles_of(contexts_)},
         {"feature_entries", config_.feature_entries},
         {"open_splats", config_.open_splats},
         {"fill_cycles", config_.fill.cycles},
@@ -51,23 +51,9 @@ void IssueBank::start_log() {
     }
     terminations_->log_takes(*log_, "terminated");
     packing_.out.ring().log_puts(*log_, "packet");
-    tile_event_ = log_->kind(
-        "tile", {{"tile", {}}, {"context", {}}, {"first_column", {}}, {"last_column", {}}});
-    over_event_ = log_->kind("over", {{"tile", {}}, {"context", {}}});
+    tile_log_.emplace(*log_);
     trace_ = trace_ == nullptr ? &logged_issues_ : trace_;
     trace_->log_to(*log_);
-}
-
-void IssueBank::log_tile(std::size_t event, TileNumber number,
-                         std::initializer_list<int> more) const {
-    if (log_ == nullptr) {
-        return;
-    }
-    log_->begin(event, self_.local());
-    log_->put(number);
-    for (const int value : more) {
-        log_->put(value);
-    }
 }
 
 } // namespace degs

@@ -150,11 +150,13 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context)
     if (packet_.open() && ends_tile_) {
         send(bank, Slot::Starved);
     }
-    name_end(tile, context);
+    ended_tile_ = tile;
+    ended_context_ = context;
     if (packet_.open()) {
         ends_tile_ = true;
     } else if (!packets_) {
-        pass_end(bank.local());
+        const Cycle now = bank.local();
+        tell_end(passed_.pass_end(now, now + packet_.latency()), false);
     } else {
         ring_->reserve(bank);
         TaskPacket& packet = ring_->staged();
@@ -202,6 +204,7 @@ void PackingUnit::close_cycles(Process& bank, Cycle until, Slot cause) {
 }
 
 void PackingUnit::settle_idle() {
+    idle_pending_ = false;
     idle_ += since_last_;
     since_last_ = SlotAccount{};
 }

@@ -108,25 +108,19 @@ public:
     /// its cause does not matter.
     bool leaves_slots(Cycle until) const { return packet_.leaves_slots(until); }
 
-    // For a bank that keeps the open packet itself and calls nothing above.
+    // For a bank that counts the tasks in packets by itself, in place of room() and add().
     /// True if packets need only be counted: their tasks have been drawn, nobody records them, and
     /// nothing but the width limits a packet.
     bool counts() const { return draws() && !packets_ && !picky() && config_.reorganisation; }
-    /// A packet of `tasks` tasks leaves the bank at `now` and executes at `slot`; `ends_tile`: with
-    /// the end that name_end() has named.
-    inline void pass_packet(Cycle now, Cycle slot, int tasks, bool ends_tile);
-    /// The end of a tile that comes next.
-    void name_end(TileNumber tile, std::int16_t context) {
-        ended_tile_ = tile;
-        ended_context_ = context;
+    OpenPacket& packet() { return packet_; }
+    /// The open packet leaves the bank at `now`.
+    inline void send_counted(Cycle now);
+    /// Another packet comes, so that the slots before it that stayed empty count.
+    void end_idle() {
+        if (idle_pending_) {
+            settle_idle();
+        }
     }
-    /// It leaves the bank alone at `now`.
-    void pass_end(Cycle now) { tell_end(passed_.pass_end(now, now + packet_.latency()), false); }
-    /// Slots that stay empty; count_idle_later(): if another packet comes, which settle_idle()
-    /// says.
-    void count_idle(Slot cause, std::uint64_t slots) { idle_[cause] += slots; }
-    void count_idle_later(Slot cause, std::uint64_t slots) { since_last_[cause] += slots; }
-    [[gnu::noinline]] void settle_idle();
 
     const Stats& stats() const { return stats_; }
     /// Slots between the first and the last packet that no task filled.
@@ -135,7 +129,6 @@ public:
 private:
     class Sink;
     class RingSink;
-    class CountingSink;
     class PickySink;
 
     void end_of_elaboration() override {
@@ -156,7 +149,8 @@ private:
     [[gnu::noinline]] void tell_end(Cycle slot, bool packet);
     [[gnu::noinline]] void separate(Process& bank, const TaskRun& run);
     inline void begin_packet(Process& bank);
-    inline void send_counted(Cycle now);
+    inline void pass_packet(Cycle now, Cycle slot, int tasks, bool ends_tile);
+    [[gnu::noinline]] void settle_idle();
     inline void send_packet(Process& bank, Slot cause);
     [[gnu::noinline]] void send(Process& bank, Slot cause);
     [[gnu::noinline]] void record_packet(const TaskPacket& packet, Slot cause);
@@ -246,12 +240,7 @@ class PackingUnit::Sink {
 public:
     Sink(PackingUnit& unit, Process& bank, const TaskRun& run)
         : unit_(unit), bank_(bank), run_(run) {}
-    void end_idle() {
-        if (unit_.idle_pending_) {
-            unit_.idle_pending_ = false;
-            unit_.settle_idle();
-        }
-    }
+    void end_idle() { unit_.end_idle(); }
     __attribute__((always_inline)) void begin() { unit_.begin_packet(bank_); }
 
 protected:
@@ -275,52 +264,16 @@ private:
     std::uint32_t mask_;
 };
 
-/// Tasks that have been drawn are counted. Which of them go into a packet matters only if a pixel
-/// ends with one.
-class PackingUnit::CountingSink : public Sink {
-public:
-    CountingSink(PackingUnit& unit, Process& bank, const TaskRun& run, std::uint32_t mask)
-        : Sink(unit, bank, run), ended_(mask & run.drawn.ended) {}
-    int take(std::uint32_t& left, int count, int room, Cycle slot) {
-        if (ended_ != 0) {
-            const std::uint32_t ended = take_lowest(left, count, room) & ended_;
-            if (ended != 0) {
-                unit_.slice_->end_drawn(run_, ended, slot);
-            }
-        }
-        return std::min(count, room);
-    }
-    void send(Slot cause) {
-        if (unit_.packets_) {
-            unit_.send(bank_, cause);
-        } else {
-            unit_.send_counted(bank_.local());
-        }
-    }
-
-private:
-    std::uint32_t ended_;
-};
-
 inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, const TaskRun& run,
                                                              std::uint32_t mask, int entry) {
     if (!config_.reorganisation) {
         separate(bank, run);
     }
-    if (picky()) {
+    if (draws() || ports_) {
         return add_picky(bank, run, mask, entry);
     }
-    const Cycle now = bank.local();
-    const int count = __builtin_popcount(mask);
-    if (draws()) {
-        const Cycle first = next_execution(now);
-        CountingSink sink(*this, bank, run, mask);
-        const Cycle last = packet_.pack(now, mask, count, sink);
-        slice_->execute(run, mask, first, last);
-        return last;
-    }
     RingSink sink(*this, bank, run, mask);
-    return packet_.pack(now, mask, count, sink);
+    return packet_.pack(bank.local(), mask, __builtin_popcount(mask), sink);
 }
 
 } // namespace degs

@@ -30,7 +30,9 @@ struct SchedulerBench {
         int spans_per_cycle = 0;
         int segment_ports = 0;
         int fill_cycles = 0;
+        int segment_length = 16;
         bool scoreboard = true;
+        DomainScan scan = DomainScan::RoundRobin;
         TerminationGrain grain = TerminationGrain::Segment;
     };
     /// A span enters the bank at `date`, from the crossbar of one Span Unit.
@@ -70,7 +72,7 @@ struct SchedulerBench {
           state("state", time, 8, static_cast<Cycle>(s.writeback)),
           packing("packing", packing_config(s)),
           bank("bank", bank_config(s), time, job, packing, 0, 1, 1),
-          slice("slice", slice_config(s), time, job, 0, 1, 16) {
+          slice("slice", slice_config(s), time, job, 0, 1, s.segment_length) {
         bank.in[0].bind(crossbar);
         bank.terminated.bind(terminated);
         bank.context_free[0].bind(contexts);
@@ -87,6 +89,8 @@ struct SchedulerBench {
         IssueBank::Config c;
         c.banks = 1;
         c.queue_depth = s.queue;
+        c.segment_length = s.segment_length;
+        c.scan = s.scan;
         c.segments_per_cycle = s.segments_per_cycle;
         c.spans_per_cycle = s.spans_per_cycle;
         c.issue_width = s.issue_width;

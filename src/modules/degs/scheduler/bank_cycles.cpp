@@ -1,72 +1,85 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cycle of a bank of drawn tasks, and its intake.
-#include "modules/degs/scheduler/drawn_bank_issue.hpp"
+// The cycle of a bank, and its intake.
+#include "modules/degs/scheduler/bank_cycles_issue.hpp"
 
 #include <algorithm>
 
 namespace degs {
 
-void DrawnBank::run() {
-    if (spans_ != nullptr) {
-        run_cycles<Intake::Single>();
-    } else if (streams_.front().inputs.front().spans != nullptr) {
-        run_cycles<Intake::Drawn>();
+void BankCycles::run() {
+    if (counts_) {
+        run_from<Outlet::Counted>();
     } else {
-        run_cycles<Intake::Rings>();
+        run_from<Outlet::Packed>();
     }
     finish();
 }
 
-template <DrawnBank::Intake intake>
-void DrawnBank::run_cycles() {
+template <BankCycles::Outlet outlet>
+void BankCycles::run_from() {
+    if (spans_ != nullptr) {
+        run_by<outlet, Intake::Single>();
+    } else if (streams_.front().inputs.front().spans != nullptr) {
+        run_by<outlet, Intake::Drawn>();
+    } else {
+        run_by<outlet, Intake::Rings>();
+    }
+}
+
+template <BankCycles::Outlet outlet, BankCycles::Intake intake>
+void BankCycles::run_by() {
     switch (choice_) {
     case Choice::InTurn:
-        run_cycles<intake, Choice::InTurn>();
+        run_cycles<outlet, intake, Choice::InTurn>();
         break;
     case Choice::Keyed:
-        run_cycles<intake, Choice::Keyed>();
+        run_cycles<outlet, intake, Choice::Keyed>();
         break;
     case Choice::Oldest:
-        if constexpr (intake != Intake::Single) {
-            run_cycles<intake, Choice::Oldest>();
+        if constexpr (outlet == Outlet::Counted && intake != Intake::Single) {
+            run_cycles<outlet, intake, Choice::Oldest>();
         }
         break;
     }
 }
 
 // The pixels of the span's next segment.
-inline std::uint32_t DrawnBank::cut_mask() const {
+inline std::uint32_t BankCycles::cut_mask() const {
     const std::uint64_t high = std::uint64_t{1} << std::min(left_, segment_length_);
     return static_cast<std::uint32_t>(high - low_);
 }
 
-// See IssueBank::can_cut().
-inline bool DrawnBank::can_cut() const {
+// True if another segment of the span can be cut or dropped at once.
+inline bool BankCycles::can_cut() const {
     return left_ > 0 && (free_ != nullptr || (cut_mask() & cut_tile_->domains[cut_].live) == 0);
 }
 
-template <DrawnBank::Intake intake, DrawnBank::Choice choice>
-void DrawnBank::run_cycles() {
+template <BankCycles::Outlet outlet, BankCycles::Intake intake, BankCycles::Choice choice>
+void BankCycles::run_cycles() {
     for (bool over = this->over(); !over;) {
         now_ = self_.local();
-        if (!terminations_.empty() && terminations_.head_date() <= now_) {
+        if (has_terminations()) {
             end_pixels();
         }
         if (contexts_owed_ && now_ >= contexts_from_) {
             see_contexts();
         }
-        accept<intake, choice>();
-        const bool issued = issue<intake, choice>() != 0;
+        accept<outlet, intake, choice>();
+        const bool issued = issue<outlet, intake, choice>() != 0;
         if (closing_ != 0) {
             finish_tiles();
             over = this->over();
         }
-        const bool works = issued || can_cut();
+        bool works = issued || can_cut();
+        if (pipeline_.exists()) {
+            choose<choice>();
+            works = works || !pipeline_.empty();
+        }
         if (!works) {
             over = this->over(); // if it became so elsewhere, there is nothing left to do
         }
         if (packet_.due(now_)) {
-            send_part(idle_cause());
+            packing_.send_due(self_, idle_cause());
         }
         Cycle next = now_ + 1;
         if (over) {
@@ -77,8 +90,7 @@ void DrawnBank::run_cycles() {
         } // else work is left, whatever arrives
         stats_.busy += issued ? 1 : 0;
         if (packet_.leaves_slots(next)) {
-            packing_.count_idle_later(idle_cause(), packet_.left_slots(now_, next));
-            idle_pending_ = true;
+            packing_.close_cycles(self_, next, idle_cause());
         }
         self_.advance_to(next);
     }
@@ -86,15 +98,15 @@ void DrawnBank::run_cycles() {
 
 // Intake.
 
-template <DrawnBank::Intake intake, DrawnBank::Choice choice>
-inline __attribute__((always_inline)) void DrawnBank::accept() {
+template <BankCycles::Outlet outlet, BankCycles::Intake intake, BankCycles::Choice choice>
+inline __attribute__((always_inline)) void BankCycles::accept() {
     features_full_ = false;
     int spans = spans_per_cycle_;
     for (int budget = segments_per_cycle_; budget > 0; --budget) {
-        if (left_ <= 0 && (spans-- == 0 || !open_span<intake>())) {
+        if (left_ <= 0 && (spans-- == 0 || !open_span<outlet, intake>())) {
             break;
         }
-        if (!cut_segment<choice>()) {
+        if (!cut_segment<outlet, choice>()) {
             break;
         }
     }
@@ -102,7 +114,7 @@ inline __attribute__((always_inline)) void DrawnBank::accept() {
 
 // The stream, which has no span to take now, has none before this date, as long as its tiles stay
 // as they are.
-inline __attribute__((always_inline)) Cycle DrawnBank::next_span_from(const BankStream& stream) {
+inline __attribute__((always_inline)) Cycle BankCycles::next_span_from(const BankStream& stream) {
     const BankStream::Input& input = stream.inputs.front();
     if (!takes(stream, input)) {
         return kNever;
@@ -112,10 +124,10 @@ inline __attribute__((always_inline)) Cycle DrawnBank::next_span_from(const Bank
 }
 
 // Takes a span of the next stream that has one, in turn; a span cut halfway is finished first.
-template <DrawnBank::Intake intake>
-inline __attribute__((always_inline)) bool DrawnBank::open_span() {
+template <BankCycles::Outlet outlet, BankCycles::Intake intake>
+inline __attribute__((always_inline)) bool BankCycles::open_span() {
     if constexpr (intake == Intake::Single) {
-        return take_from<intake>(streams_.front());
+        return take_from<outlet, intake>(streams_.front());
     }
     if (intake == Intake::Drawn && now_ < spans_from_) {
         return false;
@@ -125,7 +137,7 @@ inline __attribute__((always_inline)) bool DrawnBank::open_span() {
     do {
         BankStream& stream = *next_stream_;
         next_stream_ = stream.next;
-        if (take_from<intake>(stream)) {
+        if (take_from<outlet, intake>(stream)) {
             return true;
         }
         if constexpr (intake == Intake::Drawn) {
@@ -136,16 +148,16 @@ inline __attribute__((always_inline)) bool DrawnBank::open_span() {
     return false;
 }
 
-template <DrawnBank::Intake intake>
+template <BankCycles::Intake intake>
 inline __attribute__((always_inline)) DrawnSpans&
-DrawnBank::spans_of(const BankStream::Input& input) const {
+BankCycles::spans_of(const BankStream::Input& input) const {
     return intake == Intake::Single ? *spans_ : *input.spans;
 }
 
 // The one whose item has arrived first, ties by input; nullptr: none may be taken.
-template <DrawnBank::Intake intake>
+template <BankCycles::Intake intake>
 inline __attribute__((always_inline)) BankStream::Input*
-DrawnBank::earliest_input(BankStream& stream) {
+BankCycles::earliest_input(BankStream& stream) {
     if (!stream.enterable) {
         return nullptr;
     }
@@ -171,7 +183,7 @@ DrawnBank::earliest_input(BankStream& stream) {
 
 // False if the span has to wait for the parameters of its splat.
 inline __attribute__((always_inline)) bool
-DrawnBank::admits(const BankStream& stream, TileNumber number, std::uint32_t splat) {
+BankCycles::admits(const BankStream& stream, TileNumber number, std::uint32_t splat) {
     if (!features_.admit(number, splat, now_, stream.index)) {
         features_full_ = true;
         return false;
@@ -179,26 +191,31 @@ DrawnBank::admits(const BankStream& stream, TileNumber number, std::uint32_t spl
     return !fills_ || features_.filled_by(packet_.next_execution(now_));
 }
 
-template <class Row>
-inline __attribute__((always_inline)) void DrawnBank::start(const BankStream& stream, int row,
-                                                            const Row& drawn) {
+inline __attribute__((always_inline)) void BankCycles::start(const BankStream& stream, int row,
+                                                             int x0, int length) {
     cut_tile_ = own_[stream.index].entering;
-    const Segmenter::Place place = segmenter_.place_of(drawn.x0);
+    const Segmenter::Place place = segmenter_.place_of(x0);
     cut_ = segmenter_.first_domain_of(row) + place.segment;
     column_ = place.column;
-    low_ = std::uint64_t{1} << (drawn.x0 - column_);
-    left_ = drawn.x0 + drawn.length - column_;
-    row_inside_ = &drawn.inside;
-    row_ended_ = &drawn.ended;
+    low_ = std::uint64_t{1} << (x0 - column_);
+    left_ = x0 + length - column_;
     stats_.spans++;
-    stats_.tasks_in += drawn.length;
-    inside_ += drawn.inside.count();
-    useful_ += drawn.useful.count();
+    stats_.tasks_in += length;
+}
+
+// What becomes of the tasks of the span that starts.
+template <class Row>
+inline __attribute__((always_inline)) void BankCycles::start_drawn(const Row& row) {
+    row_inside_ = &row.inside;
+    row_useful_ = &row.useful;
+    row_ended_ = &row.ended;
+    inside_ += row.inside.count();
+    useful_ += row.useful.count();
 }
 
 // False if no span of the stream may be taken. Ends of tiles on the way cost nothing.
-template <DrawnBank::Intake intake>
-inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stream) {
+template <BankCycles::Outlet outlet, BankCycles::Intake intake>
+inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& stream) {
     for (;;) {
         BankStream::Input* const source = earliest_input<intake>(stream);
         if (source == nullptr) {
@@ -218,7 +235,11 @@ inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stre
                 enter_tile(stream, number);
             }
             if (row) {
-                start(stream, span.row, span);
+                start(stream, span.row, span.x0, span.length);
+                start_drawn(span);
+                if constexpr (outlet == Outlet::Packed) {
+                    taken_span_.splat = span.splat;
+                }
             }
             spans.drop(now_);
         } else {
@@ -232,8 +253,14 @@ inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stre
                 enter_tile(stream, number);
             }
             if (row) {
-                taken_ = item.drawn;
-                start(stream, item.span->y, taken_);
+                start(stream, item.span->y, item.span->x0, item.span->length);
+                if (slice_ != nullptr) {
+                    taken_ = item.drawn;
+                    start_drawn(taken_);
+                }
+                if constexpr (outlet == Outlet::Packed) {
+                    taken_span_ = *item.span;
+                }
             }
             source->ring->drop(self_);
         }
@@ -246,13 +273,15 @@ inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stre
 }
 
 // False if the queue has no room; the segment is then cut later.
-template <DrawnBank::Choice choice>
-inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
+template <BankCycles::Outlet outlet, BankCycles::Choice choice>
+inline __attribute__((always_inline)) bool BankCycles::cut_segment() {
     Domain& domain = cut_tile_->domains[cut_];
     const std::uint32_t mask = cut_mask();
     if ((mask & domain.live) == 0) {
         stats_.drop(mask);
-        inside_ -= __builtin_popcount(mask & row_inside_->from(column_));
+        if (outlet == Outlet::Counted || slice_ != nullptr) {
+            inside_ -= __builtin_popcount(mask & row_inside_->from(column_));
+        }
     } else {
         Waiting* const segment = free_;
         if (segment == nullptr) {
@@ -260,11 +289,16 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
         }
         free_ = segment->next;
         segment->mask = mask;
-        segment->inside = row_inside_->from(column_);
-        segment->ended = row_ended_->from(column_);
+        if (outlet == Outlet::Counted || slice_ != nullptr) {
+            segment->inside = row_inside_->from(column_);
+            segment->ended = row_ended_->from(column_);
+        }
         segment->next = nullptr;
         segment->feature = features_.current();
         features_.hold(segment->feature);
+        if constexpr (outlet == Outlet::Packed) {
+            keep_values(*segment);
+        }
         *domain.end = segment;
         domain.end = &segment->next;
         ++cut_tile_->waiting;
@@ -272,21 +306,7 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
         if (++size_ > stats_.queue_high_water) {
             stats_.queue_high_water = size_;
         }
-        DomainLanes& lanes = cut_tile_->lanes;
-        if (choice == Choice::InTurn) {
-            lanes.set_waiting(cut_, true);
-        } else {
-            const int first = choice == Choice::Oldest ? cut_tile_->first_lane : 0;
-            segment->key = next_key_ | static_cast<std::uint32_t>(first + cut_);
-            lanes.set_key(cut_, std::min(lanes.key(cut_), segment->key)); // an older one stays
-            if (choice == Choice::Keyed && scan_ == DomainScan::Deepest) {
-                lanes.set_length(cut_, ++domain.length);
-            }
-            next_key_ += key_step_;
-            if (next_key_ >= DomainLanes::kTop) {
-                renumber();
-            }
-        }
+        list_segment<choice>(*segment, domain);
     }
     ++segments_in_;
     column_ += segment_length_;
@@ -296,8 +316,42 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
     return true;
 }
 
+// The newest segment of a domain of the tile that is cut waits. The choice sees nothing of it in a
+// domain that has been chosen, until its oldest one is packed.
+template <BankCycles::Choice choice>
+inline __attribute__((always_inline)) void BankCycles::list_segment(Waiting& segment,
+                                                                    Domain& domain) {
+    DomainLanes& lanes = cut_tile_->lanes;
+    const bool shown = domain.held == 0;
+    if (choice == Choice::InTurn) {
+        if (shown) {
+            lanes.set_waiting(cut_, true);
+        }
+        return;
+    }
+    const std::uint32_t number = key_mask_ == 0 ? 0
+                                 : choice == Choice::Oldest
+                                     ? static_cast<std::uint32_t>(cut_tile_->first_lane + cut_)
+                                     : static_cast<std::uint32_t>(cut_);
+    segment.key = next_key_ | number;
+    if (shown) {
+        lanes.set_key(cut_, std::min(lanes.key(cut_), segment.key)); // an older one stays
+    }
+    if (choice == Choice::Keyed && scan_ == DomainScan::Deepest) {
+        ++domain.length;
+        if (shown) {
+            lanes.set_length(cut_, domain.length);
+        }
+    }
+    next_key_ += key_step_;
+    if (next_key_ >= DomainLanes::kTop) {
+        renumber();
+    }
+}
+
 // Packs a segment with whose tasks pixels end.
-Cycle DrawnBank::pack_ends(const Tile& tile, int number, std::uint32_t tasks, std::uint32_t ended) {
+Cycle BankCycles::pack_ends(const Tile& tile, int number, std::uint32_t tasks,
+                            std::uint32_t ended) {
     Sink<true> sink(*this, tile, number, ended);
     return packet_.pack(now_, tasks, __builtin_popcount(tasks), sink);
 }

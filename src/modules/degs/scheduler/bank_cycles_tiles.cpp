@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles and packets of a bank of drawn tasks, and the date at which it has something to do again.
+// Tiles and packets of a bank, and the date at which it has something to do again.
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
-#include "modules/degs/scheduler/drawn_bank.hpp"
+#include "modules/degs/scheduler/bank_cycles.hpp"
 
 namespace degs {
 namespace {
 
-// More domains than these would take much of the host's memory in each bank.
-constexpr std::size_t kMostDomains = 4096;
-// Keys of waiting segments have a number each, above that of their domain.
-constexpr int kMostSegments = 65535;
+// One scan over the domains of all tiles pays off up to so many of them.
+constexpr std::size_t kMostDomainsOfAll = 4096;
 
 // Tiles in flight find theirs by their turn modulo a power of two.
-std::size_t places_of(const DrawnBank::Parts& parts) {
+std::size_t places_of(const BankCycles::Parts& parts) {
     const int tiles = parts.streams.size() == 1 ? parts.tiles_in_flight : parts.contexts;
     std::size_t places = 1;
     while (places < static_cast<std::size_t>(tiles)) {
@@ -24,35 +22,39 @@ std::size_t places_of(const DrawnBank::Parts& parts) {
     return places;
 }
 
-int domains_of(const DrawnBank::Parts& parts) {
+int domains_of(const BankCycles::Parts& parts) {
     return Segmenter::domains_per_tile(parts.job.tile_size, parts.config.segment_length,
                                        parts.config.banks);
+}
+
+// True if a key has room for the number of a domain below an order of arrival in which all
+// segments that wait are distinct.
+bool keys_hold(std::uint32_t mask, int segments) {
+    return (std::uint64_t{mask} + 1) * (static_cast<std::uint64_t>(segments) + 1) <
+           DomainLanes::kTop;
 }
 
 } // namespace
 
 // One of several streams takes in no tile without a context, so that all that waits may be issued
 // if each has one.
-DrawnBank::Choice DrawnBank::choice_of(const Parts& parts) {
+BankCycles::Choice BankCycles::choice_of(const Parts& parts) {
     if (parts.config.scan == DomainScan::RoundRobin &&
         domains_of(parts) <= DomainLanes::kMostInTurn) {
         return Choice::InTurn;
     }
+    const std::size_t domains = parts.streams.size() * domains_of(parts);
     return parts.config.scan == DomainScan::Oldest && parts.streams.size() != 1 &&
-                   parts.contexts == 1
+                   parts.contexts == 1 && parts.config.select_cycles == 0 &&
+                   parts.packing.counts() && domains <= kMostDomainsOfAll &&
+                   keys_hold(kMostDomainsOfAll, parts.config.queue_depth)
                ? Choice::Oldest
                : Choice::Keyed;
 }
 
-bool DrawnBank::can_run(const Parts& parts) {
-    return parts.packing.counts() && parts.config.scoreboard && parts.config.select_cycles == 0 &&
-           parts.config.queue_depth <= kMostSegments &&
-           parts.streams.size() * places_of(parts) * domains_of(parts) <= kMostDomains;
-}
-
-DrawnBank::DrawnBank(const Parts& parts)
+BankCycles::BankCycles(const Parts& parts)
     : bank_(parts.bank), config_(parts.config), job_(parts.job), packing_(parts.packing),
-      slice_(*parts.packing.slice()), streams_(parts.streams),
+      slice_(parts.packing.slice()), streams_(parts.streams),
       spans_(streams_.size() == 1 ? streams_.front().inputs.front().spans : nullptr),
       terminations_(parts.terminations), segmenter_(parts.segmenter), features_(parts.features),
       tile_end_(parts.tiles), self_(parts.self), stats_(parts.stats),
@@ -63,41 +65,54 @@ DrawnBank::DrawnBank(const Parts& parts)
       tiles_in_flight_(parts.tiles_in_flight), scan_(config_.scan), choice_(choice_of(parts)),
       by_task_(config_.termination == TerminationGrain::Task),
       sees_pixels_(config_.termination != TerminationGrain::Segment),
-      fills_(config_.fill.cycles != 0), width_cause_(parts.width_cause), pool_(config_.queue_depth),
-      tile_mask_(places_of(parts) - 1), own_(streams_.size()), next_stream_(&streams_.front()),
-      packet_(packing_.config().width, packing_.config().latency_cycles, packing_.config().depth,
-              packing_.config().packets_per_cycle),
-      trace_(parts.trace) {
+      fills_(config_.fill.cycles != 0), counts_(packing_.counts()),
+      scoreboard_(config_.scoreboard), width_cause_(parts.width_cause), pool_(config_.queue_depth),
+      values_(counts_ ? 0 : config_.queue_depth), tile_mask_(places_of(parts) - 1),
+      own_(streams_.size()), pipeline_(config_.select_cycles, config_.issue_width),
+      next_stream_(&streams_.front()), packet_(packing_.packet()), trace_(parts.trace),
+      log_(parts.log) {
     for (Waiting& place : pool_) {
         place.next = free_;
         free_ = &place;
     }
-    const auto tiles = static_cast<int>(streams_.size() * places_of(parts));
-    const int domains = tiles * domain_count_;
-    domains_.resize(domains);
-    for (Domain& domain : domains_) {
-        domain.end = &domain.head;
-    }
-    tiles_.reserve(tiles);
+    tiles_.resize(streams_.size() * places_of(parts));
     if (choice_ == Choice::Oldest) {
-        all_lanes_ = DomainLanes(domains);
-    }
-    for (int first = 0; first < domains; first += domain_count_) {
-        const bool shared = choice_ == Choice::Oldest;
-        tiles_.emplace_back(shared ? all_lanes_.part(first, domain_count_)
-                                   : DomainLanes(domain_count_),
-                            &domains_[first]);
-        if (shared) {
-            tiles_.back().first_lane = first;
-            lane_tiles_.insert(lane_tiles_.end(), domain_count_, &tiles_.back());
+        all_lanes_ = DomainLanes(static_cast<int>(tiles_.size()) * domain_count_);
+        for (Tile& tile : tiles_) {
+            make_domains(tile);
         }
     }
-    key_step_ = (choice_ == Choice::Oldest ? all_lanes_ : tiles_.front().lanes).mask() + 1;
-    watched_.reserve(streams_.size() * (streams_.front().inputs.size() + 1));
+    const std::uint32_t mask =
+        choice_ == Choice::Oldest ? all_lanes_.mask() : DomainLanes(domain_count_).mask();
+    if (keys_hold(mask, config_.queue_depth)) {
+        key_mask_ = mask;
+        key_step_ = mask + 1;
+    }
+    watched_.reserve(streams_.size() * (streams_.front().inputs.size() + 1) + 1);
 }
 
-void DrawnBank::enter_tile(BankStream& stream, TileNumber number) {
-    Tile& tile = tile_at(stream, stream.entering);
+// A place for tiles in flight takes host memory once a tile comes to it.
+void BankCycles::make_domains(Tile& tile) {
+    domains_.emplace_back(domain_count_);
+    tile.domains = domains_.back().data();
+    for (Domain& domain : domains_.back()) {
+        domain.end = &domain.head;
+    }
+    if (choice_ != Choice::Oldest) {
+        tile.lanes = DomainLanes(domain_count_);
+        return;
+    }
+    tile.first_lane = static_cast<int>(lane_tiles_.size());
+    tile.lanes = all_lanes_.part(tile.first_lane, domain_count_);
+    lane_tiles_.insert(lane_tiles_.end(), domain_count_, &tile);
+}
+
+// Called when the first item of a tile is taken. Pixels outside of the image count as ended.
+void BankCycles::enter_tile(BankStream& stream, TileNumber number) {
+    Tile& tile = tile_at(stream.index, stream.entering);
+    if (tile.domains == nullptr) {
+        make_domains(tile);
+    }
     own_[stream.index].entering = &tile;
     const int first_context = config_.first_context + static_cast<int>(stream.index) * contexts_;
     tile.number = number;
@@ -113,14 +128,19 @@ void DrawnBank::enter_tile(BankStream& stream, TileNumber number) {
     }
     stream.entered = true;
     list_started();
+    if (log_ != nullptr) {
+        log_->enter(now_, number, tile.context, drawn);
+    }
 }
 
 // The keys have come to their end: the segments that wait get the lowest ones, in their order.
-void DrawnBank::renumber() {
+void BankCycles::renumber() {
     std::vector<Waiting*> waiting;
-    for (const Domain& domain : domains_) {
-        for (Waiting* segment = domain.head; segment != nullptr; segment = segment->next) {
-            waiting.push_back(segment);
+    for (const std::vector<Domain>& domains : domains_) {
+        for (const Domain& domain : domains) {
+            for (Waiting* segment = domain.head; segment != nullptr; segment = segment->next) {
+                waiting.push_back(segment);
+            }
         }
     }
     std::sort(waiting.begin(), waiting.end(),
@@ -131,37 +151,41 @@ void DrawnBank::renumber() {
         next_key_ += key_step_;
     }
     for (Tile& tile : tiles_) {
-        for (int i = 0; i < domain_count_; ++i) {
-            if (tile.domains[i].head != nullptr) {
-                tile.lanes.set_key(i, tile.domains[i].head->key);
+        for (int i = 0; tile.domains != nullptr && i < domain_count_; ++i) {
+            const Domain& domain = tile.domains[i];
+            if (domain.head != nullptr && domain.held == 0) {
+                tile.lanes.set_key(i, domain.head->key);
             }
         }
     }
 }
 
-void DrawnBank::end_pixels(Domain& domain, std::uint32_t mask) const {
+void BankCycles::end_pixels(Domain& domain, std::uint32_t mask) const {
     domain.ended |= mask;
     domain.live = sees_pixels_ || domain.ended == kAllPixels ? ~domain.ended : kAllPixels;
 }
 
-void DrawnBank::end_pixels() {
-    while (!terminations_.empty() && terminations_.head_date() <= now_) {
+void BankCycles::end_pixels() {
+    while (has_terminations()) {
         end_pixels(terminations_.take(self_));
     }
 }
 
-void DrawnBank::end_pixels(const Termination& message) {
+void BankCycles::end_pixels(const Termination& message) {
     const int context = message.context - config_.first_context;
     const BankStream& stream = streams_[context / contexts_];
     const std::size_t turn = stream.turn_of(context % contexts_, contexts_);
-    Tile& tile = tile_at(stream, turn);
+    Tile& tile = tile_at(stream.index, turn);
     if (turn >= stream.first_unstarted() || tile.number != message.tile) {
         return; // the tile is over for this bank
     }
     const int number = segmenter_.domain_of(message.row, message.column);
     Domain& domain = tile.domains[number];
     end_pixels(domain, message.mask);
-    while (domain.ended == kAllPixels && domain.head != nullptr) {
+    if (domain.ended != kAllPixels) {
+        return;
+    }
+    while (domain.head != nullptr) {
         features_.release(domain.head->feature, now_);
         drop(*domain.head, domain.head->mask);
         stats_.segments_dropped++;
@@ -171,16 +195,20 @@ void DrawnBank::end_pixels(const Termination& message) {
             pop<Choice::Keyed>(tile, number);
         }
     }
+    if (domain.held != 0) {
+        domain.held = 0;
+        pipeline_.remove({stream.index, turn, number});
+    }
 }
 
 // Tasks of a segment go nowhere.
-void DrawnBank::drop(const Waiting& segment, std::uint32_t tasks) {
+void BankCycles::drop(const Waiting& segment, std::uint32_t tasks) {
     stats_.tasks_dropped += __builtin_popcount(tasks);
     inside_ -= __builtin_popcount(tasks & segment.inside);
 }
 
 // A context comes back only after this bank, too, has ended the tile that holds it.
-void DrawnBank::see_contexts() {
+void BankCycles::see_contexts() {
     contexts_owed_ = false;
     contexts_from_ = kNever;
     bool gained = false;
@@ -201,7 +229,7 @@ void DrawnBank::see_contexts() {
 }
 
 // Called when a tile has begun, got a context, or ended.
-void DrawnBank::list_started() {
+void BankCycles::list_started() {
     for (Tile* const tile : started_) {
         tile->started = false;
     }
@@ -211,7 +239,7 @@ void DrawnBank::list_started() {
     for (BankStream& stream : streams_) {
         stream.first_started = started_.size();
         for (std::size_t turn = stream.oldest; turn < stream.first_unstarted(); ++turn) {
-            Tile& tile = tile_at(stream, turn);
+            Tile& tile = tile_at(stream.index, turn);
             tile.started = true;
             issuable_ += tile.waiting;
             started_.push_back(&tile);
@@ -224,13 +252,44 @@ void DrawnBank::list_started() {
 }
 
 // The tasks of a segment with ended pixels that are issued.
-std::uint32_t DrawnBank::tasks_of(const Waiting& segment, std::uint32_t live) {
+std::uint32_t BankCycles::tasks_of(const Waiting& segment, std::uint32_t live) {
     const std::uint32_t wanted = segment.mask & live;
     return by_task_ && wanted != 0 ? segment.mask : wanted; // one live task takes the others along
 }
 
+// What the Packing Unit needs of a segment beside what the choice needs.
+void BankCycles::keep_values(const Waiting& segment) {
+    Values& values = values_[&segment - pool_.data()];
+    values.splat = taken_span_.splat;
+    if (slice_ != nullptr) {
+        values.useful = row_useful_->from(column_);
+        return;
+    }
+    values.g0 = taken_span_.g0;
+    values.d0 = taken_span_.d0;
+    values.offset = inside_tile(column_ - taken_span_.base);
+}
+
+TaskRun BankCycles::run_of(const Tile& tile, int number, const Waiting& segment) const {
+    const Values& values = values_[&segment - pool_.data()];
+    const Segmenter::Domain& place = segmenter_.domains()[number];
+    TaskRun run;
+    run.tile = tile.number;
+    run.domain = number;
+    run.task.g0 = values.g0;
+    run.task.d0 = values.d0;
+    run.task.splat = values.splat;
+    run.task.mask = segment.mask;
+    run.task.row = inside_tile(place.row);
+    run.task.column = inside_tile(place.column);
+    run.task.offset = values.offset;
+    run.task.context = tile.context;
+    run.drawn = {segment.inside, values.useful, segment.ended};
+    return run;
+}
+
 // Pixels of a domain end with these tasks of a packet.
-void DrawnBank::end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date) {
+void BankCycles::end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date) {
     const Segmenter::Domain& place = segmenter_.domains()[number];
     TaskRun run;
     run.tile = tile.number;
@@ -238,28 +297,10 @@ void DrawnBank::end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cyc
     run.task.row = inside_tile(place.row);
     run.task.column = inside_tile(place.column);
     run.task.context = tile.context;
-    slice_.end_drawn(run, tasks, date);
+    slice_->end_drawn(run, tasks, date);
 }
 
-void DrawnBank::send_part(Slot cause) {
-    packing_.count_idle(cause, packet_.room());
-    send();
-}
-
-// See PackingUnit::end_tile().
-void DrawnBank::end_tile(const Tile& tile) {
-    if (packet_.open() && ends_tile_) {
-        send_part(Slot::Starved);
-    }
-    packing_.name_end(tile.number, tile.context);
-    if (packet_.open()) {
-        ends_tile_ = true;
-    } else {
-        packing_.pass_end(now_);
-    }
-}
-
-void DrawnBank::finish_tiles() {
+void BankCycles::finish_tiles() {
     const std::size_t before = closing_;
     for (BankStream& stream : streams_) {
         finish_tiles(stream);
@@ -269,13 +310,16 @@ void DrawnBank::finish_tiles() {
     }
 }
 
-void DrawnBank::finish_tiles(BankStream& stream) {
+void BankCycles::finish_tiles(BankStream& stream) {
     while (stream.oldest < stream.entering && stream.oldest < stream.startable) {
-        const Tile& tile = tile_at(stream, stream.oldest);
+        const Tile& tile = tile_at(stream.index, stream.oldest);
         if (tile.waiting != 0) {
             break;
         }
-        end_tile(tile);
+        if (log_ != nullptr) {
+            log_->leave(now_, tile.number, tile.context);
+        }
+        packing_.end_tile(self_, tile.number, tile.context);
         tile_end_.count(tile.number);
         ++stream.oldest;
         --closing_;
@@ -284,8 +328,8 @@ void DrawnBank::finish_tiles(BankStream& stream) {
     }
 }
 
-// See IssueBank::take_end().
-void DrawnBank::take_end(BankStream& stream, TileNumber number) {
+// kNoTile: that of the stream.
+void BankCycles::take_end(BankStream& stream, TileNumber number) {
     if (++stream.ends_seen != stream.inputs.size()) {
         return;
     }
@@ -303,25 +347,26 @@ void DrawnBank::take_end(BankStream& stream, TileNumber number) {
 }
 
 // All tasks that came in have been issued or dropped. A useful task is never dropped.
-void DrawnBank::finish() {
+void BankCycles::finish() {
     now_ = self_.local();
-    if (packet_.open()) {
-        send_part(Slot::Starved);
-    }
+    packing_.send_due(self_, Slot::Starved);
+    packing_.close_cycles(self_, now_ + 1, Slot::Starved);
     if (config_.granted) {
         packing_.end_tile(self_, kNoTile, 0);
     }
     stats_.segments_issued = segments_in_ - stats_.segments_dropped;
     stats_.tasks_issued = stats_.tasks_in - stats_.tasks_dropped;
-    SlotAccount executed;
-    executed[Slot::Useful] = useful_;
-    executed[Slot::Boundary] = stats_.tasks_issued - inside_;
-    executed[Slot::Terminated] = inside_ - useful_;
-    slice_.count_drawn(executed);
+    if (counts_) {
+        SlotAccount executed;
+        executed[Slot::Useful] = useful_;
+        executed[Slot::Boundary] = stats_.tasks_issued - inside_;
+        executed[Slot::Terminated] = inside_ - useful_;
+        slice_->count_drawn(executed);
+    }
     self_.finish();
 }
 
-Slot DrawnBank::idle_cause() const {
+Slot BankCycles::idle_cause() const {
     if (size_ == 0) {
         return Slot::Starved;
     }
@@ -333,7 +378,7 @@ Slot DrawnBank::idle_cause() const {
 
 // The cycles after the next execution date until waiting segments may go, if none went at `now`;
 // kNever if none waits.
-Cycle DrawnBank::next_ready() const {
+Cycle BankCycles::next_ready() const {
     const Cycle slot = packet_.next_execution(now_);
     if (choice_ == Choice::Oldest) {
         return all_lanes_.until_next(slot);
@@ -349,8 +394,8 @@ Cycle DrawnBank::next_ready() const {
     return earliest;
 }
 
-// See IssueBank::watch_inputs().
-bool DrawnBank::watch_inputs() {
+// Watches the inputs from which the next span may come. True if one of them has a span by now.
+bool BankCycles::watch_inputs() {
     bool waiting = false;
     for (const BankStream& stream : streams_) {
         for (const BankStream::Input& input : stream.inputs) {
@@ -370,14 +415,17 @@ bool DrawnBank::watch_inputs() {
     return waiting;
 }
 
-// See IssueBank::next_date(). All ends of pixels that are due are in their ring.
-Cycle DrawnBank::next_date() {
+// The next cycle in which anything can change, if there is nothing left to do at once: a domain
+// becomes ready, an open packet has to leave, a Feature Buffer entry is freed, or a message
+// arrives.
+Cycle BankCycles::next_date() {
     const Cycle next = now_ + 1;
     if (no_room_) {
         return next;
     }
     Cycle limit = packet_.open_until();
-    if (const Cycle ready = next_ready(); ready != kNever) {
+    if (Cycle ready = next_ready(); ready != kNever) {
+        ready -= pipeline_.exists() ? 1 : 0; // it chooses for the date of the next cycle
         limit = std::min(limit, now_ + ready);
     }
     if (limit <= next) {
@@ -392,7 +440,9 @@ Cycle DrawnBank::next_date() {
             return next;
         }
     }
-    if (!terminations_.empty()) {
+    if (slice_ == nullptr) {
+        watched_.push_back(&terminations_);
+    } else if (!terminations_.empty()) { // all that are due are there
         limit = std::min(limit, std::max(next, terminations_.head_date()));
     }
     if (contexts_owed_) {

@@ -2,23 +2,27 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
 #include "modules/degs/scheduler/domain_lanes.hpp"
 #include "modules/degs/scheduler/issue_bank.hpp"
 #include "modules/degs/scheduler/open_packet.hpp"
+#include "modules/degs/scheduler/pick_pipeline.hpp"
 
 namespace degs {
 
-/// The cycles of an Issue Bank with its Packing Unit where tasks are drawn (TileDrawing), for every
-/// design whose packets need only be counted: in one loop over little data, because these cycles
-/// are half of a run. Segments carry masks, packets are not made, and what follows from totals is
-/// counted at the end. Every decision and date is that of IssueBank and PackingUnit, which do the
-/// same in strict mode, with limited ports, and where tasks are recorded.
-class DrawnBank {
+/// The cycles of an Issue Bank with its Packing Unit, in one loop over little data, because they
+/// are half of a run. A waiting segment is a mask and a few words; where packets need only be
+/// counted (PackingUnit::counts()), none is made, and what follows from totals is counted at the
+/// end.
+///
+/// In cycle t the bank takes terminations and freed contexts dated <= t, accepts segments, issues
+/// segments, and ends tiles; a bank with select_cycles then chooses the segments of a later cycle.
+class BankCycles {
 public:
-    /// What an Issue Bank has, for its DrawnBank.
+    /// What an Issue Bank has, for its cycles.
     struct Parts {
         const sc_core::sc_object& bank;
         const IssueBank::Config& config;
@@ -34,16 +38,13 @@ public:
         int contexts, tiles_in_flight, spans_per_cycle;
         Slot width_cause;
         IssueTrace* trace; ///< may be null
+        BankLog* log;      ///< may be null
     };
 
-    /// True if packets need only be counted, and if the domains of all tiles in flight take little
-    /// room.
-    static bool can_run(const Parts& parts);
-
     /// Before the simulation starts; all parts must exist until the bank has finished.
-    explicit DrawnBank(const Parts& parts);
-    DrawnBank(const DrawnBank&) = delete; // entries point at each other
-    DrawnBank& operator=(const DrawnBank&) = delete;
+    explicit BankCycles(const Parts& parts);
+    BankCycles(const BankCycles&) = delete; // entries point at each other
+    BankCycles& operator=(const BankCycles&) = delete;
     /// Runs the bank until the job is over.
     void run();
 
@@ -60,9 +61,16 @@ private:
         Drawn,  ///< DrawnSpans, one per stream
         Rings   ///< rings of the crossbar
     };
-    template <Intake intake, Choice choice>
-    void run_cycles();
-    template <Intake intake>
+    /// Where tasks go.
+    enum class Outlet {
+        Counted, ///< into packets that are counted here
+        Packed   ///< to the Packing Unit, which looks at them
+    };
+    template <Outlet outlet>
+    void run_from();
+    template <Outlet outlet, Intake intake>
+    void run_by();
+    template <Outlet outlet, Intake intake, Choice choice>
     void run_cycles();
     static Choice choice_of(const Parts& parts);
 
@@ -75,22 +83,29 @@ private:
         Waiting* next;
         std::uint16_t feature;
     };
+    /// What the Packing Unit also needs of a waiting segment.
+    struct Values {
+        std::uint32_t splat = 0, useful = 0;
+        double g0 = 0, d0 = 0;
+        std::int16_t offset = 0;
+    };
     /// A conflict domain of a tile in flight.
     struct alignas(32) Domain {
         Waiting* head = nullptr;
         Waiting** end = nullptr; // where the next one is linked
         std::uint32_t live = 0, ended = 0;
-        std::uint32_t length = 0; // segments; for DomainScan::Deepest alone
+        std::uint32_t length : 31; // segments; for DomainScan::Deepest alone
+        std::uint32_t held : 1;    // chosen, and not packed yet; with select_cycles alone
+        Domain() : length(0), held(0) {}
     };
     /// The bank's part of a tile in flight.
     struct Tile {
-        Tile(DomainLanes&& own, Domain* first) : lanes(std::move(own)), domains(first) {}
-        DomainLanes lanes;
-        int first_lane = 0; // of all_lanes_; for Choice::Oldest alone
-        Domain* domains;
-        bool started = false;     // may issue
-        std::size_t waiting = 0;  // segments
-        std::uint32_t cursor = 0; // behind the domain that issued last
+        DomainLanes lanes{0};
+        int first_lane = 0;        // of all_lanes_; for Choice::Oldest alone
+        Domain* domains = nullptr; // nullptr: no tile has been here
+        bool started = false;      // may issue
+        std::size_t waiting = 0;   // segments
+        std::uint32_t cursor = 0;  // behind the domain that issued last
         TileNumber number = kNoTile;
         std::int16_t context = 0;
     };
@@ -104,31 +119,43 @@ private:
     };
 
     // Intake.
-    template <Intake intake, Choice choice>
+    template <Outlet outlet, Intake intake, Choice choice>
     inline void accept();
-    template <Intake intake>
+    template <Outlet outlet, Intake intake>
     inline bool open_span();
     static inline Cycle next_span_from(const BankStream& stream);
-    template <Intake intake>
+    template <Outlet outlet, Intake intake>
     inline bool take_from(BankStream& stream);
     template <Intake intake>
     inline DrawnSpans& spans_of(const BankStream::Input& input) const;
     template <Intake intake>
     inline BankStream::Input* earliest_input(BankStream& stream);
     inline bool admits(const BankStream& stream, TileNumber number, std::uint32_t splat);
+    inline void start(const BankStream& stream, int row, int x0, int length);
     template <class Row>
-    inline void start(const BankStream& stream, int row, const Row& drawn);
+    inline void start_drawn(const Row& row);
     [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number);
-    template <Choice choice>
+    template <Outlet outlet, Choice choice>
     inline bool cut_segment();
+    template <Choice choice>
+    inline void list_segment(Waiting& segment, Domain& domain);
+    void keep_values(const Waiting& segment);
     inline std::uint32_t cut_mask() const;
     inline bool can_cut() const;
     [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
+    void make_domains(Tile& tile);
     [[gnu::noinline]] void renumber();
     [[gnu::noinline]] void end_pixels();
     void end_pixels(const Termination& message);
     [[gnu::noinline]] void see_contexts();
     void end_pixels(Domain& domain, std::uint32_t mask) const;
+    // Drawn tasks report the ends of their pixels when they are issued, so a report that the ring
+    // does not hold yet is due later than now.
+    bool has_terminations() const {
+        return slice_ != nullptr
+                   ? !terminations_.empty() && terminations_.head_date() <= now_
+                   : self_.arrived(terminations_);
+    }
     void list_started();
     // An item that is there needs no proof.
     bool arrived(FifoBase& fifo) const {
@@ -143,15 +170,22 @@ private:
     }
 
     // Issue.
-    template <Intake intake, Choice choice>
+    template <Outlet outlet, Intake intake, Choice choice>
     inline int issue();
-    template <Choice choice>
+    template <Outlet outlet, Choice choice>
     inline int issue_in_order();
-    template <Choice choice>
+    template <Outlet outlet, Choice choice>
     inline int issue_from_all();
+    template <Outlet outlet>
     inline int issue_oldest();
+    template <Outlet outlet, Choice choice>
+    [[gnu::noinline]] int issue_chosen();
+    template <Choice choice>
+    [[gnu::noinline]] void choose();
     template <Choice choice>
     inline std::uint64_t find(const Tile& tile, Cycle slot) const;
+    template <Choice choice>
+    inline int number_of(const Tile& tile, std::uint64_t rank) const;
     template <Choice choice>
     inline bool find_ready(std::size_t number, Cycle slot);
     template <Choice choice>
@@ -159,17 +193,22 @@ private:
     template <Choice choice>
     inline std::size_t least_ready(Cycle slot);
     template <Choice choice>
+    inline std::size_t next_stream(Cycle slot, bool anew);
+    template <Outlet outlet, Choice choice>
     inline bool issue_one(Tile& tile, int number, Cycle slot);
+    template <Outlet outlet>
+    inline bool has_room(const TaskRun& run, std::uint32_t tasks, int count, Cycle slot,
+                         std::uint16_t feature);
+    TaskRun run_of(const Tile& tile, int number, const Waiting& segment) const;
     [[gnu::noinline]] std::uint32_t tasks_of(const Waiting& segment, std::uint32_t live);
     void drop(const Waiting& segment, std::uint32_t tasks);
     template <bool ends>
     class Sink;
+    inline Cycle count_tasks(const Tile& tile, int number, std::uint32_t tasks, int count,
+                             std::uint32_t ended);
     [[gnu::noinline]] Cycle pack_ends(const Tile& tile, int number, std::uint32_t tasks,
                                       std::uint32_t ended);
-    inline void send();
-    [[gnu::noinline]] void send_part(Slot cause);
     [[gnu::noinline]] void end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date);
-    void end_tile(const Tile& tile);
     template <Choice choice>
     inline void pop(Tile& tile, int number);
     [[gnu::noinline]] void finish_tiles();
@@ -188,15 +227,15 @@ private:
     bool watch_inputs();
     [[gnu::noinline]] Cycle next_date();
 
-    Tile& tile_at(const BankStream& stream, std::size_t turn) {
-        return tiles_[stream.index * (tile_mask_ + 1) + (turn & tile_mask_)];
+    Tile& tile_at(std::size_t stream, std::size_t turn) {
+        return tiles_[stream * (tile_mask_ + 1) + (turn & tile_mask_)];
     }
 
     const sc_core::sc_object& bank_;
     const IssueBank::Config& config_;
     const RenderJob& job_;
     PackingUnit& packing_;
-    ArraySlice& slice_;
+    ArraySlice* slice_; // nullptr: tasks are blended when they execute
     std::vector<BankStream>& streams_;
     DrawnSpans* spans_; // of the only stream; null if there are several, or rings
     DatedFifo<Termination>& terminations_;
@@ -214,16 +253,20 @@ private:
     Choice choice_;
     bool by_task_, sees_pixels_; // see TerminationGrain
     bool fills_;                 // filling a Feature Buffer entry takes time
-    Slot width_cause_;           // what limits the issue width
+    bool counts_;                // packets are only counted
+    bool scoreboard_;
+    Slot width_cause_; // what limits the issue width
 
     std::vector<Waiting> pool_;
+    std::vector<Values> values_; // of each of these, for Outlet::Packed alone
     Waiting* free_ = nullptr;
     std::size_t size_ = 0;     // segments that wait
     std::size_t issuable_ = 0; // of these, in tiles that may issue
     // The smallest key of the ready domains is the one to issue. It is the number of the domain,
-    // below the order of arrival unless domains go round robin.
-    std::uint32_t next_key_ = 0, key_step_ = 0;
-    std::vector<Domain> domains_; // tile by tile
+    // if there is room for that, below the order of arrival.
+    std::uint32_t next_key_ = 0, key_step_ = 1;
+    std::uint32_t key_mask_ = 0; // of the domain in a key; 0: keys are the order of arrival alone
+    std::vector<std::vector<Domain>> domains_; // of the tiles that have some
     std::vector<Tile> tiles_;     // stream by stream, by their turn modulo a power of two
     std::size_t tile_mask_ = 0;
     // For Choice::Oldest alone: the lanes of all tiles, and the tile of each.
@@ -232,6 +275,7 @@ private:
     std::vector<Tile*> started_; // that may issue: stream by stream, oldest first
     std::vector<Stream> own_;    // by stream
     std::size_t issued_stream_ = 0;
+    PickPipeline pipeline_;
 
     Cycle now_ = 0;
     // The span that is cut: what is left of it from `column_` on.
@@ -240,24 +284,25 @@ private:
     int cut_ = 0;           // domain of the span's next segment
     std::uint64_t low_ = 1; // bit of the segment's first pixel
     const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see DrawnRow
-    DrawnRow taken_;                                             // a copy, unless its ring keeps it
-    BankStream* next_stream_;                                    // whose span is taken next
-    Cycle spans_from_ = 0; // for Intake::Drawn: no stream has a span before, if no tile changes
+    const RowMask* row_useful_ = nullptr;
+    DrawnRow taken_;     // a copy, unless its ring keeps it
+    RowSpan taken_span_; // for Outlet::Packed alone
+    BankStream* next_stream_; // whose span is taken next
+    Cycle spans_from_ = 0;    // for Intake::Drawn: no stream has a span before, if no tile changes
     bool features_full_ = false, no_room_ = false, width_limited_ = false;
-    OpenPacket packet_;
-    bool ends_tile_ = false;     // it carries the end of a tile
-    bool idle_pending_ = false;  // slots without a packet, which count once another one comes
+    OpenPacket& packet_;
     std::size_t closing_ = 0;    // tiles of which nothing more will be taken
     bool contexts_owed_ = false; // a stream has fewer contexts than it may have
     Cycle contexts_from_ = 0;    // none of them comes before
     // Tasks taken in, and of the segments dropped.
     std::uint64_t segments_in_ = 0, inside_ = 0, useful_ = 0;
     IssueTrace* trace_;
+    BankLog* log_;
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
 };
 
-template <DrawnBank::Choice choice>
-inline __attribute__((always_inline)) void DrawnBank::pop(Tile& tile, int number) {
+template <BankCycles::Choice choice>
+inline __attribute__((always_inline)) void BankCycles::pop(Tile& tile, int number) {
     Domain& domain = tile.domains[number];
     Waiting& segment = *domain.head;
     Waiting* const next = segment.next;
@@ -279,13 +324,6 @@ inline __attribute__((always_inline)) void DrawnBank::pop(Tile& tile, int number
     if (choice == Choice::Keyed && scan_ == DomainScan::Deepest) {
         tile.lanes.set_length(number, --domain.length);
     }
-}
-
-inline __attribute__((always_inline)) void DrawnBank::send() {
-    const int tasks = packet_.tasks();
-    const bool ends = ends_tile_;
-    ends_tile_ = false;
-    packing_.pass_packet(now_, packet_.sent(now_), tasks, ends);
 }
 
 } // namespace degs
