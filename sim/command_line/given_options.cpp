@@ -23,6 +23,9 @@ OptionState state_of(const CLI::App& command, const std::string& name) {
 } // namespace
 
 void refuse_combinations(const CLI::App& command) {
+    if (!command.remaining().empty()) {
+        return; // a word that the library does not know may be a misspelt option that is needed
+    }
     refuse_combinations(path_of(command), rules_of(command),
                         [&command](const std::string& name) { return state_of(command, name); });
 }

@@ -131,15 +131,5 @@ TEST(Table, RefusesImpossibleSizes) {
     EXPECT_THROW(LookupTable{spec}, InputError);
 }
 
-TEST(Table, HasACostKey) {
-    EXPECT_EQ(spec_of(TableFunction::Exp2, Interpolation::Linear, Reduction::Binary, 16, "uq1.15")
-                  .cost_key(),
-              "lut.exp2.linear.16x32");
-    EXPECT_EQ(
-        spec_of(TableFunction::SqrtOneMinus, Interpolation::Nearest, Reduction::None, 256, "fp16")
-            .cost_key(),
-        "lut.sqrt.nearest.256x16");
-}
-
 } // namespace
 } // namespace degs
