@@ -268,7 +268,22 @@ def absolute(study: Mapping[str, Any]) -> Dict[str, Any]:
     for entry in values["designs"]:
         if "include" in entry:
             entry["include"] = [str(file_of(file)) for file in listed(entry["include"])]
+        place_numbers(entry.get("pipeline"), "numbers")
+    for axis in [values.get("axes"), *(values.get("axes") or {}).values()]:
+        place_numbers(axis, "pipeline.numbers")
+        place_numbers(axis.get("keys") if isinstance(axis, dict) else None, "pipeline.numbers")
     return values
+
+
+def place_numbers(section: Any, key: str) -> None:
+    """Makes number files in a value of a section, or in a list of them, absolute."""
+    if not isinstance(section, dict) or isinstance(section.get(key), (dict, type(None))):
+        return
+    placed = []
+    for text in map(str, listed(section[key])):
+        name, colon, parts = text.partition(":")
+        placed.append((each_path(name) if "." in name or "/" in name else name) + colon + parts)
+    section[key] = placed if isinstance(section[key], list) else placed[0]
 
 
 def listed(value: Any) -> List[Any]:

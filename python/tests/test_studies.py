@@ -56,6 +56,19 @@ def test_designs_that_cannot_be_built_are_listed():
     assert "must be at least 4" in frame.attrs["skipped"][0]["why"]
 
 
+def test_number_files_are_relative_to_the_current_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "fine.yaml").write_text("base: tuned\nalpha: uq0.20\n", encoding="utf-8")
+    design = degs.Design("degs-64").with_({"pipeline.numbers": "fine.yaml"})
+    assert design.pipeline.numbers == "tuned:alpha=uq0.20"
+    values = ["tuned", "./fine.yaml:alpha=uq0.18"]
+    axes = ({"pipeline.numbers": values}, {"both": {"keys": {"pipeline.numbers": values, "span.count": [4, 8]}}})
+    for varied in axes:
+        frame = degs.sweep(design, varied, SCENE, width=32, reference=False)
+        assert frame.attrs["skipped"] == [] and len(frame) == 3
+        assert frame["pipeline.numbers"].iloc[0] == "tuned:alpha=uq0.20"
+
+
 def test_several_designs_and_names():
     frame = degs.compare(["degs-64", degs.Design("degs-64").with_({"span.count": 16}), "gscore-64"], SCENE, width=48,
                          camera=[0, 2])

@@ -20,7 +20,7 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
-from degs.design import Design  # noqa: E402
+from degs.design import Design, texts_of  # noqa: E402
 from degs.process import call, program  # noqa: E402
 from degs.report import Report  # noqa: E402
 
@@ -181,8 +181,9 @@ def content(file):
 
 @functools.lru_cache(maxsize=None)
 def values_of(file, keys):
-    """All keys of a design as the program resolves them."""
-    return call(["config", file, *[word for key in keys for word in ("--set", key)], "--format", "yaml"], warn=False)
+    """All keys of a design with their values, as the program resolves them; not what it says of their meaning."""
+    changes = [word for key in keys for word in ("--set", key)]
+    return json.dumps(texts_of(call(["config", file, *changes, "--format", "yaml"], warn=False)), sort_keys=True)
 
 
 def depends_on(point):

@@ -33,8 +33,7 @@ FRONT = {"degs-256": ("degs-256",), "degs-256, priority": ("degs-256", "memory.p
          "longest list first": ("degs-x-256", "tile_order=longest_list"),
          "records in Morton order": ("degs-x-256", "memory.layout=morton"),
          "list entries of 6 B": ("degs-x-256", "traffic.list_entry_bytes=6"),
-         "SH of 1 B": ("degs-x-256", "traffic.sh_value_bytes=1", "pipeline.formats.sh_dc=e4m3",
-                       "pipeline.formats.sh_rest=e4m3")}
+         "SH of 1 B": ("degs-x-256", "traffic.sh_value_bytes=1", "pipeline.numbers=tuned:sh_dc=e4m3:sh_rest=e4m3")}
 GROUPS = {"64": (SMALL, ("alone", "204.8")), "256": (MIDDLE, ("204.8", "409.6")), "1024": (LARGE, ("819.2", "204.8")),
           "256-ours": (OURS, ("alone",)), "mechanisms": (MECHANISMS, ("alone",)), "front": (FRONT, ("204.8",))}
 

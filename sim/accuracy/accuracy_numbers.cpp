@@ -2,10 +2,9 @@
 #include "sim/accuracy/accuracy_numbers.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 #include "degs/error.hpp"
-#include "splat/numbers/number_set.hpp"
+#include "modules/kit/config/number_choice.hpp"
 
 namespace degs::sim {
 
@@ -18,14 +17,10 @@ std::string words_of(SpanEnds ends) {
 }
 
 AccuracyNumbers numbers_of(const std::string& text, const std::string& span_ends) {
-    std::istringstream words(text);
-    std::string name;
-    std::getline(words, name, ':');
-    std::vector<std::string> changes;
-    for (std::string change; std::getline(words, change, ':');) {
-        changes.push_back(change);
-    }
-    AccuracyNumbers numbers{number_set(name, changes), named_numbers(name, changes)};
+    const NumberChoice choice = read_numbers(text, {"--numbers", ""});
+    AccuracyNumbers numbers{choice.set(), named_numbers(name_of(choice.base), choice.parts)};
+    numbers.set.name = text;
+    std::replace(numbers.set.name.begin(), numbers.set.name.end(), ':', ' ');
     if (!span_ends.empty()) {
         const std::vector<std::string> names = span_end_names();
         const auto at = std::find(names.begin(), names.end(), span_ends);

@@ -20,9 +20,9 @@ struct AccuracyNumbers {
     DataPathOptions path;
 };
 
-/// "tuned" or, with parts changed, "tuned:projection=fp64:alpha=uq1.15", with the span ends of that
-/// name; with the set's own if it is empty. Throws InputError with the mistake and the allowed
-/// names.
+/// What read_numbers() makes of the text, "tuned:projection=fp64:alpha=uq1.15" or a number file,
+/// with the span ends of that name; with the set's own if it is empty. The set is called as the
+/// text is, with spaces. Throws InputError with the mistake and the allowed names.
 AccuracyNumbers numbers_of(const std::string& text, const std::string& span_ends);
 
 /// Options with which the frames of a set are projected; a hard case has its own near plane.

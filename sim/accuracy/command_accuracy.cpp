@@ -220,8 +220,8 @@ std::string set_words() {
         words += (words.empty() ? "" : "; ") + name + ": " + number_set(name).meaning;
     }
     return words +
-           "; several separated by commas; tuned:projection=fp64:alpha=uq1.15 changes parts "
-           "(pipeline.formats)";
+           "; or number files; several separated by commas; tuned:projection=fp64:alpha=uq1.15 "
+           "changes parts, which degs config --keys numbers lists";
 }
 
 void add_scene_options(CLI::App& command, AccuracyOptions& options) {

@@ -198,7 +198,7 @@ void find_problems(const HardScene& scene, const NumberSet& set, const Judge& ju
         problems.push_back(grouped(judge.beyond()) +
                            " pixels are further from the reference than the formats explain.");
     }
-    const bool exact = set.name == "ideal" || set.name == "fp32";
+    const bool exact = set.name == "ideal" || set.name == "fp64" || set.name == "fp32";
     if (scene.same_counts && exact && set.ends == SpanEnds::Exact && measure.recounted > 0) {
         problems.push_back(grouped(measure.recounted) +
                            " pixels have another number of updates than in the reference.");

@@ -7,6 +7,7 @@
 #include "config/config_document.hpp"
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
+#include "modules/kit/config/number_choice.hpp"
 #include "sim/config/config_difference.hpp"
 #include "sim/config/cost_output.hpp"
 #include "sim/config/schema.hpp"
@@ -19,6 +20,8 @@
 
 namespace degs::sim {
 namespace {
+
+constexpr const char* kNumberKeys = "numbers"; ///< of --keys
 
 struct ConfigOptions {
     bool has_config = false; // else the defaults
@@ -104,11 +107,17 @@ std::string statistics(const RunConfig& config, const ConfigOptions& options) {
                                         : statistics_text(list);
 }
 
+/// Keys of a part of the configuration, or the parts of its number set.
+std::vector<KeyDoc> listed_keys(const RunConfig& config, const std::string& part) {
+    return part == kNumberKeys ? document(read_numbers(config.get("pipeline.numbers"), {}).set())
+                               : keys_of_part(document(config), part);
+}
+
 /// Similar keys and costs have tables with the values of all accelerators beside each other.
 std::string keys_markdown(const RunConfig& config, const std::string& part) {
     return part == "similar" ? similar_keys_markdown()
            : part == "cost"  ? cost_keys_markdown()
-                             : markdown_table(keys_of_part(document(config), part));
+                             : markdown_table(listed_keys(config, part));
 }
 
 std::string costs(const RunConfig& config, const ConfigOptions& options) {
@@ -137,7 +146,7 @@ void run(const ConfigOptions& options) {
     } else if (options.format == "markdown") {
         print(keys_markdown(config, options.keys));
     } else if (options.format == "text") {
-        print(text(keys_of_part(document(config), options.keys)));
+        print(text(listed_keys(config, options.keys)));
     } else {
         print(file_text(config, options));
     }
@@ -159,13 +168,16 @@ void add_statistics_options(CLI::App* command, ConfigOptions& options) {
 
 /// Adds the option that lists only a part of the keys.
 void add_keys_option(CLI::App* command, ConfigOptions& options) {
+    std::vector<std::string> listed = key_parts();
+    listed.emplace_back(kNumberKeys);
     command
         ->add_option("--keys", options.keys,
                      "which keys are listed; shared: those that all accelerators have with the "
                      "same default, range and meaning; similar: those that several have with the "
                      "same range and meaning; own: all others of the accelerator; cost: "
-                     "its areas and powers")
-        ->check(CLI::IsMember(key_parts()))
+                     "its areas and powers; numbers: the parts of the number set that "
+                     "pipeline.numbers names, which it may change")
+        ->check(CLI::IsMember(listed))
         ->capture_default_str();
 }
 

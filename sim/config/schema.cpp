@@ -5,6 +5,7 @@
 
 #include "base/json_text.hpp"
 #include "config/config_schema.hpp"
+#include "modules/kit/config/number_choice.hpp"
 #include "sim/simulation/run_config.hpp"
 #include "sim/study/study_schema.hpp"
 
@@ -169,17 +170,38 @@ ordered_json technology_document() {
     return document;
 }
 
+void remove_defaults(ordered_json& properties) {
+    for (auto& [key, value] : properties.items()) {
+        value.erase("default");
+        if (value.contains("properties")) {
+            remove_defaults(value["properties"]);
+        }
+    }
+}
+
+/// A file that `pipeline.numbers` names. Its base, which another file may say, decides what parts
+/// are that the file does not name.
+ordered_json numbers_document() {
+    ordered_json document = head("Number set of a DeGS design");
+    document.update(schema(NumberFile{"", number_set("ideal")}));
+    document["type"] = "object";
+    remove_defaults(document["properties"]);
+    document["anyOf"] = {{{"required", {"base"}}}, {{"required", {"include"}}}};
+    return document;
+}
+
 } // namespace
 
 std::vector<std::string> schema_names() {
-    return {"design", "study", "memory", "technology"};
+    return {"design", "study", "memory", "technology", "numbers"};
 }
 
 std::string schema_text(const std::string& name) {
-    const ordered_json document = name == "design"   ? design_document()
-                                  : name == "study"  ? study_document()
-                                  : name == "memory" ? memory_document()
-                                                     : technology_document();
+    const ordered_json document = name == "design"    ? design_document()
+                                  : name == "study"   ? study_document()
+                                  : name == "memory"  ? memory_document()
+                                  : name == "numbers" ? numbers_document()
+                                                      : technology_document();
     return dump_json(document, 1) + "\n";
 }
 

@@ -6,7 +6,7 @@
 
 namespace degs::sim {
 
-/// The files that have a schema: design, study, memory and technology.
+/// The files that have a schema: design, study, memory, technology and numbers.
 std::vector<std::string> schema_names();
 /// The JSON Schema of one of them, made from the descriptions that also read, print and document
 /// the keys.

@@ -20,7 +20,7 @@ std::string saturation_words(const Saturation& found, std::size_t all, const std
     return "Stage " + found.stage + " saturates: " + grouped(found.splats) + " of " + grouped(all) +
            " " + of + " (" + three_digits(100 * ratio_of(found.splats, all)) + " %) " + how + " " +
            three_digits(found.limit) + ", the largest value of " + found.format +
-           "; pipeline.formats." + found.stage + " sets another format.";
+           "; ':" + found.stage + "=FORMAT' at the end of pipeline.numbers sets another.";
 }
 
 } // namespace

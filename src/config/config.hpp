@@ -20,6 +20,12 @@ struct ConfigRule {
     std::vector<const char*> others = {}; ///< the other keys that decide
 };
 
+/// Where a text was written, for a struct that reads more out of it than its letters.
+struct ConfigOrigin {
+    std::string place;  ///< begins a sentence about it: "my.yaml:7: key 'pipeline.numbers'"
+    std::string folder; ///< in which a path in it is looked up; empty: where the program started
+};
+
 /// Walks the fields of a configuration struct. A struct describes itself once,
 ///     void describe(ConfigVisitor& v) { v.integer("rows", rows, 1, 64, "rows per cycle"); }
 /// and reading, validating, printing and documenting all use that one description. `describe` may
@@ -41,11 +47,20 @@ public:
     virtual void real(const char* key, double& value, double low, double high, const char* doc) = 0;
     virtual void boolean(const char* key, bool& value, const char* doc) = 0;
     virtual void text(const char* key, std::string& value, const char* doc) = 0;
-    /// Says how the text `key`, visited before, is spelled: a regular expression for all of it. It
-    /// is for those who describe configurations; who describes the key checks the text as well.
-    virtual void spelled(const char* key, const std::string& expression) {
-        (void)key, (void)expression;
+    /// Says how the text `key`, visited before, is spelled: a regular expression for all of it, and
+    /// in words what is allowed. It is for those who describe configurations; who describes the key
+    /// checks the text as well.
+    virtual void spelled(const char* key, const std::string& expression,
+                         const std::string& allowed) {
+        (void)key, (void)expression, (void)allowed;
     }
+    /// The origin of the value of `key`, visited before.
+    virtual ConfigOrigin origin(const char* key) const {
+        return {std::string("key '") + key + "'", ""};
+    }
+    /// Says that `key`, a value or a section, is one no more. A reader refuses it all the same, and
+    /// its sentence ends with `advice`: what to say in its place.
+    virtual void replaced(const char* key, const char* advice) { (void)key, (void)advice; }
     /// `value` is an index into `names`.
     virtual void choice(const char* key, int& value, const std::vector<const char*>& names,
                         const char* doc) = 0;

@@ -103,6 +103,10 @@ public:
         keys.push_back({path_.back(), "section", "", "", doc});
     }
     void end_section() override { path_.pop_back(); }
+    void spelled(const char* /*key*/, const std::string& /*expression*/,
+                 const std::string& allowed) override {
+        keys.back().allowed = allowed;
+    }
     std::vector<KeyDoc> keys;
 
 private:
@@ -145,9 +149,9 @@ std::string markdown_allowed(const KeyDoc& key) {
     if ((key.type == "integer" || key.type == "real") && at != std::string::npos) {
         allowed.replace(at, bounds.size(), "..");
     }
-    return key.type == "text"   ? key.type
-           : key.type == "real" ? key.type + " " + allowed
-                                : config_words::markdown_cell(allowed);
+    return key.type == "text" && allowed == "any" ? key.type
+           : key.type == "real"                   ? key.type + " " + allowed
+                                                  : config_words::markdown_cell(allowed);
 }
 
 std::string markdown_table(const std::vector<KeyDoc>& keys) {

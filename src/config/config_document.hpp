@@ -46,7 +46,8 @@ std::vector<KeyDoc> document(Config config) {
     return document_keys([&](ConfigVisitor& visitor) { config.describe(visitor); });
 }
 
-/// The cell "allowed" of a Markdown table: 1..64 of integers, "real 0..10", "text", or the choices.
+/// The cell "allowed" of a Markdown table: 1..64 of integers, "real 0..10", "text", or the choices
+/// or spelling.
 std::string markdown_allowed(const KeyDoc& key);
 
 /// Returns a Markdown table with the columns key, default, allowed and meaning; sections have no

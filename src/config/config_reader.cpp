@@ -149,6 +149,15 @@ void ConfigReader::text(const char* key, std::string& value, const char*) {
     note(key, before != value, quote(value));
 }
 
+ConfigOrigin ConfigReader::origin(const char* key) const {
+    const std::string path = path_of(key);
+    return {source_.place(path) + ": key " + quote(path), source_.folder(path)};
+}
+
+void ConfigReader::replaced(const char* key, const char* advice) {
+    replaced_[path_of(key)] = advice;
+}
+
 void ConfigReader::choice(const char* key, int& value, const std::vector<const char*>& names,
                           const char* doc) {
     const int before = value;
@@ -314,9 +323,12 @@ void ConfigReader::reject_unknown(const std::string& override_path,
 
 void ConfigReader::fail_unknown(const std::string& place, const std::string& section,
                                 const std::string& key) const {
+    const std::string written = join_path(section, key);
+    if (const std::string* known_advice = advice_of(written)) {
+        throw InputError(place + ": key " + quote(written) + " is unknown; " + *known_advice + ".");
+    }
     const std::string meant = guess(section, key);
     const std::string keys = config_words::list(known_.at(section));
-    const std::string written = join_path(section, key);
     std::string advice = meant.empty() ? "" : ", did you mean " + quote(meant) + "?";
     if (meant == written) { // a key with a dot in its name
         const std::size_t dot = meant.rfind('.');
@@ -326,6 +338,14 @@ void ConfigReader::fail_unknown(const std::string& place, const std::string& sec
     throw InputError(place + ": key " + quote(written) + " is unknown" + advice + " (allowed " +
                      (section.empty() ? "at the top" : "in " + quote(section)) + ": " +
                      (keys.empty() ? "nothing" : keys) + ").");
+}
+
+/// Of a replaced key, or of one in a replaced section.
+const std::string* ConfigReader::advice_of(const std::string& path) const {
+    const auto found = std::find_if(replaced_.begin(), replaced_.end(), [&](const auto& each) {
+        return path == each.first || path.rfind(each.first + ".", 0) == 0;
+    });
+    return found == replaced_.end() ? nullptr : &found->second;
 }
 
 /// A misspelt sibling first, then the same word in another section, then a misspelt section.

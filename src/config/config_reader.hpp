@@ -26,6 +26,8 @@ public:
     void real(const char* key, double& value, double low, double high, const char* doc) override;
     void boolean(const char* key, bool& value, const char* doc) override;
     void text(const char* key, std::string& value, const char* doc) override;
+    ConfigOrigin origin(const char* key) const override;
+    void replaced(const char* key, const char* advice) override;
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override;
     void require(bool holds, const ConfigRule& rule) override;
@@ -63,11 +65,13 @@ private:
     [[noreturn]] void fail_unknown(const std::string& place, const std::string& section,
                                    const std::string& key) const;
     std::string guess(const std::string& section, const std::string& key) const;
+    const std::string* advice_of(const std::string& path) const;
 
     const ConfigSource& source_;
     std::vector<Section> open_;
     std::map<std::string, std::vector<std::string>> known_; // keys by path of their section
     std::map<std::string, std::string> values_;             // as text, by path
+    std::map<std::string, std::string> replaced_;           // advice by path
     std::vector<std::string> of_others_;                    // paths of sections
     std::set<std::string> changed_;                         // paths of values unlike the default
     std::string broken_rule_;                               // the sentence; empty while all hold

@@ -65,7 +65,8 @@ public:
     void text(const char* key, std::string& value, const char* doc) override {
         leaf(key, doc, {{"type", {"string", "number", "boolean"}}, {"default", value}});
     }
-    void spelled(const char* key, const std::string& expression) override {
+    void spelled(const char* key, const std::string& expression,
+                 const std::string& /*allowed*/) override {
         ordered_json& leaf = properties()[key];
         leaf["type"] = "string";
         leaf["pattern"] = "^(" + expression + ")$";

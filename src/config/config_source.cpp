@@ -93,6 +93,11 @@ std::string ConfigSource::place(const std::string& path) const {
     return node == nullptr ? "default" : node->place;
 }
 
+std::string ConfigSource::folder(const std::string& path) const {
+    const ConfigNode* node = override_of(path) == nullptr ? node_of(path) : nullptr;
+    return node == nullptr ? "" : folder_of(*node).string();
+}
+
 const ConfigNode* ConfigSource::node_of(const std::string& path) const {
     const ConfigNode* node = &root_;
     std::size_t begin = 0;

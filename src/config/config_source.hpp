@@ -56,6 +56,8 @@ public:
     /// Returns "file:line" or "--set path=value" of the text that decides a key, "default" if
     /// nothing names it.
     std::string place(const std::string& path) const;
+    /// Returns the folder of the file that decides a key; empty if an override or nothing does.
+    std::string folder(const std::string& path) const;
     /// The files as one tree, before overrides, for callers that read lists.
     const ConfigNode& tree() const { return root_; }
 

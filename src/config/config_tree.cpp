@@ -183,8 +183,14 @@ const ConfigNode* ConfigNode::find(const std::string& child) const {
     return found == children.end() ? nullptr : &*found;
 }
 
-ConfigNode read_config_file(const std::filesystem::path& path) {
-    return Includer().file(path, "");
+std::filesystem::path folder_of(const ConfigNode& node) {
+    const bool option = node.place.rfind("--", 0) == 0;
+    return option ? fs::path()
+                  : fs::path(node.place.substr(0, node.place.rfind(':'))).parent_path();
+}
+
+ConfigNode read_config_file(const std::filesystem::path& path, const std::string& place) {
+    return Includer().file(path, place);
 }
 
 ConfigNode read_config_text(const std::string& name, const std::string& yaml) {

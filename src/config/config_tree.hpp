@@ -26,10 +26,14 @@ struct ConfigNode {
     const ConfigNode* find(const std::string& child) const;
 };
 
+/// The folder in which a path in the value is looked up: that of its file; empty for an option.
+std::filesystem::path folder_of(const ConfigNode& node);
+
 /// Reads a file. The first key of any section may be `include: other.yaml` (or a list of files),
 /// whose keys become part of that section; the section's own keys override them. Paths are relative
-/// to the including file. Throws InputError.
-ConfigNode read_config_file(const std::filesystem::path& path);
+/// to the including file. `place` begins the sentence about a file that cannot be read, "my.yaml:7:
+/// ". Throws InputError.
+ConfigNode read_config_file(const std::filesystem::path& path, const std::string& place = "");
 /// Reads text in memory like a file; `name` stands for the file in messages, includes are relative
 /// to it.
 ConfigNode read_config_text(const std::string& name, const std::string& yaml);

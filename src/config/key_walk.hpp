@@ -32,6 +32,9 @@ public:
     void text(const char* key, std::string& value, const char* doc) override {
         visitor_.text(path_of(key), value, doc);
     }
+    ConfigOrigin origin(const char* key) const override {
+        return {"key " + config_words::quote(path_of(key)), ""};
+    }
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override {
         visitor_.choice(path_of(key), value, {names.begin(), names.end()}, doc);

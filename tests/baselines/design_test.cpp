@@ -67,7 +67,7 @@ TEST(Designs, TheDefaultsAreTheDesignOfThePaperInSinglePrecision) {
     }
     EXPECT_THAT(different, ::testing::ElementsAre("pipeline.numbers", "pipeline.span_ends",
                                                   "pixel_buffer.state_bytes"));
-    EXPECT_EQ(DegsConfig().pipeline.numbers, Arithmetic::Fp32);
+    EXPECT_EQ(DegsConfig().pipeline.numbers.base, Arithmetic::Fp32);
 }
 
 /// Remembers the keys, and multiplies every integer that `raise` names by two.

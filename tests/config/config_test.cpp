@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "config/config_changes.hpp"
 #include "config/config_source.hpp"
 #include "config_fixture.hpp"
 
@@ -344,28 +343,43 @@ TEST(UnusedKeys, AreNotThoseWhoseNamesBeginAlike) {
               Sentences{"--set row=5: key 'row' has no effect, because rows count."});
 }
 
-/// Changes to the memory of another design.
-struct ChangedMemory {
-    MemoryKeys base;
-    ConfigChanges changes;
+/// A key with the name of a section that is no more, and a text of which more is read.
+struct Renewed {
+    std::string rule = "plain";
+    std::string rules_text = "none";
+    ConfigOrigin origin;
     void describe(ConfigVisitor& v) {
-        v.begin_section("change", "of the memory");
-        changes.describe(v, base);
-        v.end_section();
+        v.text("rule", rule, "how");
+        v.text("rules_text", rules_text, "in words");
+        v.replaced("rules", "rule says it");
+        origin = v.origin("rule");
     }
 };
 
-TEST(ConfigChanges, AreTheKeysThatAreNotSetBack) {
-    ChangedMemory config;
-    ConfigSource::from_text("a.yaml", "change: {refresh: false, access_bytes: 128}", {})
-        .load(config);
-    EXPECT_EQ(config.changes.assignments(), (Sentences{"access_bytes=128", "refresh=false"}));
-    EXPECT_EQ(config.changes.applied_to(MemoryKeys()).access_bytes, 128);
-    config.base = {};
-    ConfigSource::from_text("a.yaml", "change: {access_bytes: set}", {}).load(config);
-    EXPECT_EQ(config.changes.assignments(), Sentences{"refresh=false"});
-    EXPECT_EQ(config.base.access_bytes, 64);
-    EXPECT_FALSE(config.base.refresh);
+TEST(ReplacedKeys, AreRefusedWithAdvice) {
+    const auto sentence = [](const std::string& yaml, const std::vector<std::string>& overrides) {
+        Renewed config;
+        return sentence_of(
+            [&] { ConfigSource::from_text("a.yaml", yaml, overrides).load(config); });
+    };
+    EXPECT_EQ(sentence("rule: x\nrules:\n  first: 1\n", {}),
+              "a.yaml:2: key 'rules' is unknown; rule says it.");
+    EXPECT_EQ(sentence("rule: x\n", {"rules.first=1"}),
+              "--set rules.first=1: key 'rules.first' is unknown; rule says it.");
+    EXPECT_EQ(sentence("rules_text: x\n", {}), "");
+    EXPECT_EQ(sentence("rules_texts: x\n", {}),
+              "a.yaml:1: key 'rules_texts' is unknown, did you mean 'rules_text'? (allowed at the "
+              "top: rule, rules_text).");
+}
+
+TEST(ConfigOrigins, AreThePlaceAndTheFolderOfAText) {
+    Renewed config;
+    ConfigSource::from_text("some/folder/a.yaml", "rule: x\n").load(config);
+    EXPECT_EQ(config.origin.place, "some/folder/a.yaml:1: key 'rule'");
+    EXPECT_EQ(config.origin.folder, "some/folder");
+    ConfigSource::from_text("some/folder/a.yaml", "rule: x\n", {"rule=y"}).load(config);
+    EXPECT_EQ(config.origin.place, "--set rule=y: key 'rule'");
+    EXPECT_EQ(config.origin.folder, "");
 }
 
 } // namespace

@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 
 cmake --install "$build" --prefix "$work/prefix" --component program >"$work/log" || { cat "$work/log"; exit 1; }
 "$work/prefix/bin/degs" --version | grep -q '^degs [0-9]'
-for kind in design study memory technology; do
+for kind in design study memory technology numbers; do
     "$work/prefix/bin/degs" config --schema $kind | cmp - "$work/prefix/share/degs/schema/$kind.json"
 done
 mandoc -T lint -W warning "$work/prefix/share/man/man1/degs.1"

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "degs/error.hpp"
+#include "modules/kit/config/number_choice.hpp"
+
 namespace degs::trials {
 namespace {
 
@@ -51,19 +54,40 @@ std::string draw_real(Dice& dice, const Key& key) {
     }
 }
 
-/// Texts are names, or formats and orders of number sets, whose words stand in the documentation.
+/// An arithmetic, and in most draws some parts that differ, as far as its set can have them.
+std::string draw_numbers(Dice& dice) {
+    const int count = static_cast<int>(arithmetic_names().size());
+    NumberChoice choice(static_cast<Arithmetic>(dice.below(count)));
+    const int sizes[] = {0, 0, 1, 1, 2, 3, 5, 9};
+    for (int i = sizes[dice.below(8)]; i > 0; --i) {
+        const std::vector<Key> parts = keys_of(choice.set());
+        const Key& part = draw_key(dice, parts);
+        std::string text = choice.text();
+        text.append(":").append(part.path).append("=").append(draw_value(dice, part));
+        try {
+            choice = read_numbers(text, {"drawn", ""});
+        } catch (const InputError&) { // as where values need a sign
+        }
+    }
+    return choice.text();
+}
+
+/// Texts are names, number sets and formats of their parts, or words of the documentation.
 std::string draw_text(Dice& dice, const Key& key) {
     static const std::vector<std::string> names{"x", "a design", "degs-64", "gscore-64"};
     static const std::vector<std::string> formats{"fp64",  "fp32",      "fp16",   "bf16",   "e6m9",
                                                   "e8m23", "q18.12",    "q16.16", "uq0.16", "q12.8",
-                                                  "e5m10", "ue6m14b50", "uq3.13", "q6.20",  "set"};
+                                                  "e5m10", "ue6m14b50", "uq3.13", "q6.20"};
     if (key.path == "name") {
         return dice.one_of(names);
+    }
+    if (key.path == "pipeline.numbers") {
+        return draw_numbers(dice);
     }
     if (key.doc.rfind("format", 0) == 0) {
         return dice.one_of(formats);
     }
-    std::vector<std::string> words{"set", "0", "1", "16", "256"};
+    std::vector<std::string> words{"0", "1", "16", "256"};
     std::string word;
     for (const char c : key.doc.substr(0, key.doc.find(':')) + ' ') {
         if (c != ' ' && c != ',') {

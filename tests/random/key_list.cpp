@@ -62,4 +62,10 @@ std::vector<Key> keys_of(sim::RunConfig config) {
     return collector.keys;
 }
 
+std::vector<Key> keys_of(NumberSet set) {
+    KeyCollector collector;
+    set.describe(collector);
+    return collector.keys;
+}
+
 } // namespace degs::trials

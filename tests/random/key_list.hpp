@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/simulation/run_config.hpp"
+#include "splat/numbers/number_set.hpp"
 
 namespace degs::trials {
 
@@ -21,5 +22,7 @@ struct Key {
 
 /// Every key that `describe` visits with the values that `config` has.
 std::vector<Key> keys_of(sim::RunConfig config);
+/// Every part of a number set, likewise.
+std::vector<Key> keys_of(NumberSet set);
 
 } // namespace degs::trials

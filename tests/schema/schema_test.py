@@ -45,7 +45,7 @@ WRONG = [
     ("design", "scheduler", "section of DeGS in GSCore", "accelerator: gscore\nscheduler: { banks: 4 }"),
     ("design", "dataflow", "key of another behind an include", "include: ROOT/gcc-64.yaml\narray: { dataflow: none }"),
     ("design", "x", "row of an accelerator that is not chosen", "accelerator: gscore\ncost: { degs: { x: 1 } }"),
-    *(("design", "colour", "no number format", f"pipeline: {{ formats: {{ colour: {name} }} }}")
+    *(("numbers", "colour", "no number format", f"base: tuned\ncolour: {name}")
       for name in ("banana", "''", "fp33", "16", "true", "e9m3", "e1m3", "e4m24", "q8", "q8.", "xfp16", "uuq1.1")),
     ("design", "include", "no file", "include: [[]]\nname: a"),
     ("study", "baselines", "unknown key", STUDY + "baselines: a"),
@@ -68,6 +68,13 @@ WRONG = [
     ("technology", "nodes", "unknown key", "nodes: 7"),
     ("technology", "area_factor", "below the range", "area_factor: -1"),
     ("technology", "units", "word in a row", "degs: { projection: { units: few } }"),
+    ("design", "numbers", "no number set", "pipeline: { numbers: banana }"),
+    ("design", "numbers", "part without a value", "pipeline: { numbers: 'tuned:alpha' }"),
+    ("design", "formats", "key that is no more", "pipeline: { formats: { alpha: fp16 } }"),
+    ("numbers", "base", "no base", "alpha: fp16"),
+    ("numbers", "base", "unknown base", "base: banana"),
+    ("numbers", "colours", "unknown part", "base: tuned\ncolours: fp16"),
+    ("numbers", "entries", "above the range", "base: tuned\nexp: { entries: 5000 }"),
 ]
 # What shipped files do not use, and both accept.
 RIGHT = [
@@ -82,6 +89,9 @@ RIGHT = [
     ("study", STUDY + "axes: { array.writeback_cycles: 2..8 +1, scheduler.termination: [segment, pixel] }"),
     ("memory", "channels: 8\ncontroller_latency_ns: 20ns"),
     ("technology", "node: 7 nm\narea_factor: 0.1\ngscore: { sorting_share: 0.1 }"),
+    ("design", "pipeline: { numbers: 'tuned:alpha=uq1.15:exp.entries=32' }"),
+    ("numbers", "base: tuned\nalpha: uq1.15\nexp: { entries: 32 }\nq_mask: true"),
+    ("numbers", "base: paper:records=tuned:guard=0.5"),
 ]
 
 
@@ -92,7 +102,8 @@ def wrapped(kind, file):
     if kind == "design":
         return ["config", str(file)]
     design = file.with_name("design.yaml")
-    section = {"memory": "memory: { model: lpddr5, lpddr5: { include: %s } }", "technology": "cost: { include: %s }"}
+    section = {"memory": "memory: { model: lpddr5, lpddr5: { include: %s } }", "technology": "cost: { include: %s }",
+               "numbers": "pipeline: { numbers: %s }"}
     design.write_text(section[kind] % file.name + "\n", encoding="utf-8")
     return ["config", str(design)]
 
@@ -119,7 +130,7 @@ def main():
         print(text)
 
     validators = {}
-    for kind in ("design", "study", "memory", "technology"):
+    for kind in ("design", "study", "memory", "technology", "numbers"):
         text = subprocess.run([program, "config", "--schema", kind], check=True, capture_output=True, text=True).stdout
         schema = json.loads(text)
         jsonschema.Draft202012Validator.check_schema(schema)

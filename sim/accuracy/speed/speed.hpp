@@ -18,8 +18,7 @@ namespace degs::sim {
 /// A design with a number set in place of its own.
 struct SpeedDesign {
     std::string accelerator; ///< what the user calls the design
-    std::string
-        numbers; ///< of the set, with " *" if the design changes single formats of its own set
+    std::string numbers;     ///< as pipeline.numbers says them
     RunConfig config;
 };
 

@@ -1,39 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "config/config_document.hpp"
 #include "degs/error.hpp"
 #include "sim/accuracy/speed/speed.hpp"
-#include "splat/pixels/data_path.hpp"
 
 namespace degs::sim {
 namespace {
 
-const std::string kFormats = "pipeline.formats.";
-const std::string kOfTheSet = "set";
-
-/// The keys by which a design changes single formats of its number set.
-std::vector<std::string> changed_formats(const RunConfig& config) {
-    RunConfig copy = config;
-    std::vector<std::string> paths;
-    for (const KeyDoc& key : document_keys([&copy](ConfigVisitor& v) { copy.describe(v); })) {
-        if (key.path.compare(0, kFormats.size(), kFormats) == 0 && key.type != "section" &&
-            key.default_value.find(kOfTheSet) == std::string::npos) {
-            paths.push_back(key.path);
-        }
-    }
-    return paths;
-}
-
-/// An override of one design among several.
-std::string addressed(std::string design, const std::string& path, const std::string& value) {
-    return design.append(":").append(path).append("=").append(value);
-}
-
-std::string set_of_design(const RunConfig& config) {
-    const std::string changed = changed_formats(config).empty() ? "" : " *";
-    return name_of(config.accelerator().data_path().numbers) + changed;
-}
+const std::string kNumbers = "pipeline.numbers";
 
 } // namespace
 
@@ -61,7 +35,7 @@ std::vector<SpeedDesign> speed_designs(const std::vector<std::string>& configs,
     std::vector<SpeedDesign> designs;
     const std::vector<NamedConfig> own = load_configs(configs, overrides, memory);
     for (std::size_t c = 0; c < own.size(); ++c) {
-        const std::string own_set = set_of_design(own[c].config);
+        const std::string own_set = own[c].config.get(kNumbers);
         std::vector<std::string> sets{"ideal"};
         for (const std::string& set :
              numbers.empty() ? std::vector<std::string>{"fp32", own_set} : numbers) {
@@ -72,10 +46,7 @@ std::vector<SpeedDesign> speed_designs(const std::vector<std::string>& configs,
         for (const std::string& set : sets) {
             std::vector<std::string> changes = overrides;
             if (set != own_set) {
-                changes.push_back(addressed(own[c].name, "pipeline.numbers", set));
-                for (const std::string& path : changed_formats(own[c].config)) {
-                    changes.push_back(addressed(own[c].name, path, kOfTheSet));
-                }
+                changes.push_back(own[c].name + ":" + kNumbers + "=" + set);
             }
             designs.push_back({own[c].name, set, load_configs(configs, changes, memory)[c].config});
         }

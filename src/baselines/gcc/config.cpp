@@ -50,7 +50,7 @@ void Config::require_parts(ConfigVisitor& visitor) const {
                         {key,
                          std::string("must hold ") + what + ", " + least + " B",
                          least,
-                         {"pipeline.records", "pipeline.formats"}});
+                         {"pipeline.records", "pipeline.numbers"}});
     };
     require("traffic.mean_bytes", "the mean of a Gaussian", traffic.mean_bytes, stored.mean_bits());
     require("traffic.shape_bytes", "scale, rotation and opacity of a Gaussian", traffic.shape_bytes,

@@ -33,8 +33,8 @@ std::vector<cost::ClockLimit> DegsConfig::clock_limits() const {
     const cost::LogicLaws& laws = cost.logic;
     const double cycle = laws.fo4_per_ns / clock_ghz;
     const BankShape bank = bank_shape();
-    const double loop =
-        pipeline.numbers == Arithmetic::Tuned ? laws.tuned_pixel_loop_fo4 : laws.pixel_loop_fo4;
+    const double loop = pipeline.numbers.base == Arithmetic::Tuned ? laws.tuned_pixel_loop_fo4
+                                                                   : laws.pixel_loop_fo4;
     const double packed = laws.fo4_packing(bank.issued, bank.length);
     constexpr int kReadCycles = 1; // of packing.latency_cycles
     std::vector<cost::ClockLimit> limits;

@@ -158,9 +158,10 @@ NumberSet number_set(const std::string& name) {
                      config_words::list(number_set_names()) + ".");
 }
 
-NumberSet number_set(const std::string& name, const std::vector<std::string>& assignments) {
+NumberSet number_set(const std::string& name, const std::vector<std::string>& assignments,
+                     const std::string& option) {
     NumberSet set = number_set(name);
-    ConfigSource::from_overrides(with_record_formats(assignments), "--numbers").load(set);
+    ConfigSource::from_overrides(with_record_formats(assignments, option), option).load(set);
     for (const std::string& assignment : assignments) {
         set.name += " " + assignment;
     }
@@ -182,7 +183,8 @@ const std::vector<std::string>& record_formats(std::size_t set) {
     return record_sets().at(set).formats;
 }
 
-std::vector<std::string> with_record_formats(const std::vector<std::string>& assignments) {
+std::vector<std::string> with_record_formats(const std::vector<std::string>& assignments,
+                                             const std::string& option) {
     const std::string key = "records=";
     std::vector<std::string> all;
     for (const std::string& assignment : assignments) {
@@ -196,8 +198,9 @@ std::vector<std::string> with_record_formats(const std::vector<std::string>& ass
                                       [&name](const RecordSet& each) { return each.name == name; });
         if (set == sets.end()) {
             const std::vector<const char*>& names = record_set_names();
-            throw InputError("There are no records '" + name + "'; there are " +
-                             config_words::list({names.begin(), names.end()}) + ".");
+            throw InputError(option + " " + assignment + ": there are no records '" + name +
+                             "'; there are " + config_words::list({names.begin(), names.end()}) +
+                             ".");
         }
         all.insert(all.end(), set->formats.begin(), set->formats.end());
     }

@@ -199,7 +199,7 @@ void describe_format(ConfigVisitor& visitor, const char* key, NumberFormat& form
                      const std::string& meaning) {
     std::string name = format.name();
     visitor.text(key, name, ("format: " + meaning).c_str());
-    visitor.spelled(key, kFormatSpelling);
+    visitor.spelled(key, kFormatSpelling, "number format");
     try {
         format = parse_format(name);
     } catch (const InputError&) {

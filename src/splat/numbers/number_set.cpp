@@ -122,8 +122,9 @@ void NumberSet::describe(ConfigVisitor& visitor) {
                    "(dy^2) k, (dy k) dy, or C' dy^2 from x");
     visitor.choice("mean_form", mean_form, {"coordinate", "offset"},
                    "the mean as it is, or as pixel and offset");
-    visitor.choice("base", base, {"start", "vertex"},
+    visitor.choice("span_base", base, {"start", "vertex"},
                    "pixel of n = 0: the span's first, or the nearest to x_c");
+    visitor.replaced("base", "the pixel of n = 0 is span_base");
     visitor.choice("multiplier", multiplier, {"whole", "half_lookup"}, "of integers n and n(n-1)");
     visitor.integer("lookup_bits", lookup_bits, 1, 15,
                     "bits of the lower half of an integer with half_lookup [assumed]");

@@ -136,15 +136,17 @@ int pixel_bits(const NumberSet& set);
 const std::vector<const char*>& record_set_names();
 const std::vector<std::string>& record_formats(std::size_t set);
 /// `assignments` with the formats of a record set in the place of `records=NAME`. Throws InputError
-/// for an unknown name.
-std::vector<std::string> with_record_formats(const std::vector<std::string>& assignments);
+/// for an unknown name, which begins with `option`.
+std::vector<std::string> with_record_formats(const std::vector<std::string>& assignments,
+                                             const std::string& option = "--numbers");
 
 /// "ideal", "fp32", "fp16", "paper", "tuned".
 std::vector<std::string> number_set_names();
 /// Throws InputError, which lists the names, for any other.
 NumberSet number_set(const std::string& name);
-/// A named set with parts changed by "key=value" of NumberSet::describe, as `--numbers` has them.
-/// Throws InputError that names the key.
-NumberSet number_set(const std::string& name, const std::vector<std::string>& assignments);
+/// A named set with parts changed by "key=value" of NumberSet::describe, and records=NAME. Throws
+/// InputError that begins with `option`, where the assignments were given, and names the key.
+NumberSet number_set(const std::string& name, const std::vector<std::string>& assignments,
+                     const std::string& option = "--numbers");
 
 } // namespace degs

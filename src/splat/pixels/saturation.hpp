@@ -12,7 +12,7 @@ namespace degs {
 
 /// A number of the data path whose format does not reach far enough for a frame.
 struct Saturation {
-    std::string stage;        ///< as in pipeline.formats
+    std::string stage;        ///< the part of NumberSet::describe
     std::string format;       ///< name of the format
     double limit = 0;         ///< largest value of the format
     std::uint64_t splats = 0; ///< of the frame, whose value lies beyond; of `sum` pixels

@@ -93,7 +93,7 @@ TEST_P(SmallRunGcc, ExactIsStrict) {
     sc_core::sc_start();
     test::expect_sound(exact);
     test::expect_same(exact, strict);
-    if (config.pipeline.numbers == Arithmetic::Fp64 &&
+    if (config.pipeline.numbers.base == Arithmetic::Fp64 &&
         config.pipeline.stop_rule == StopRule::Refuse) {
         test::expect_reference(exact);
     }

@@ -98,16 +98,15 @@ TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {
 }
 
 TEST(AccuracyScenes, ProjectsAsTheRunDoes) {
-    const auto keys = [](const char* numbers, const char* projection) {
-        return std::vector<std::string>{"pipeline.span_ends=exact",
-                                        std::string("pipeline.numbers=") + numbers,
-                                        std::string("pipeline.formats.projection=") + projection};
-    };
-    expect_difference_of_run_and_render("fp32:projection=fp32", keys("fp32", "fp32"), "fp32");
-    expect_difference_of_run_and_render("fp32:projection=e8m14", keys("fp32", "e8m14"), "e8m14");
-    std::vector<std::string> two = keys("tuned", "fp64");
-    two.emplace_back("pipeline.formats.alpha=uq0.12");
-    expect_difference_of_run_and_render("tuned:projection=fp64:alpha=uq0.12", two, "fp64");
+    const std::pair<const char*, const char*> sets[] = {
+        {"fp32:projection=fp32", "fp32"},
+        {"fp32:projection=e8m14", "e8m14"},
+        {"tuned:projection=fp64:alpha=uq0.12", "fp64"}};
+    for (const auto& [numbers, projection] : sets) {
+        expect_difference_of_run_and_render(
+            numbers, {"pipeline.span_ends=exact", std::string("pipeline.numbers=") + numbers},
+            projection);
+    }
 }
 
 TEST(AccuracyScenes, EveryRowHasItsOwnProjection) {

@@ -5,6 +5,7 @@
 #include "config/config_document.hpp"
 #include "sim/config/shared_keys.hpp"
 #include "sim/simulation/run_config.hpp"
+#include "splat/numbers/number_set.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -87,6 +88,22 @@ TEST(SharedKeys, OfAFileHaveItsValues) {
     EXPECT_NE(
         yaml.err.find("--format yaml writes all keys, so it cannot be combined with --keys own."),
         std::string::npos);
+}
+
+// The parts of a number set are those of NumberSet::describe, with the values of the design's set.
+TEST(NumberKeys, AreThePartsOfTheDesignsSet) {
+    const Outcome parts =
+        degs({"config", config("degs-64-tuned"), "--set", "pipeline.numbers=tuned:alpha=uq1.15",
+              "--keys", "numbers", "--format", "markdown"});
+    EXPECT_EQ(parts.code, 0) << parts.err;
+    EXPECT_EQ(parts.out, markdown_table(document(number_set("tuned", {"alpha=uq1.15"}))));
+    EXPECT_NE(parts.out.find("\n| `alpha` | `\"uq1.15\"` | number format | "), std::string::npos)
+        << parts.out;
+    const Outcome text = degs({"config", "gscore", "--keys", "numbers"});
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_EQ(text.out.rfind("projection = \"fp64\"\n    format: all that makes splats ", 0), 0U)
+        << text.out;
+    EXPECT_NE(text.out.find("\nexp.entries = 0\n"), std::string::npos);
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
-#include <map>
 
 #include <gtest/gtest.h>
 
@@ -64,9 +63,7 @@ TEST(Configs, FormatsOfSingleStages) {
     for (const char* name : {"degs-64", "gscore-64", "gbu-64", "gcc-64"}) {
         EXPECT_FALSE(numbers_with({"pipeline.numbers=paper"}, name).set.has_value());
         const DataPathOptions options =
-            numbers_with({"pipeline.numbers=paper", "pipeline.formats.alpha=uq1.15",
-                          "pipeline.formats.exp.entries=32", "pipeline.formats.q_mask=true"},
-                         name);
+            numbers_with({"pipeline.numbers=paper:alpha=uq1.15:exp.entries=32:q_mask=true"}, name);
         ASSERT_TRUE(options.set.has_value());
         EXPECT_EQ(options.set->alpha, parse_format("uq1.15"));
         EXPECT_EQ(options.set->exp.entries, 32);
@@ -104,43 +101,29 @@ void expect_refused(const std::vector<std::string>& assignments, const std::stri
     }
 }
 
-// The section `formats` has the keys of NumberSet::describe, all unchanged.
-TEST(Configs, FormatsHaveEveryPartOfANumberSet) {
-    const std::vector<KeyDoc> parts = document(number_set("tuned"));
-    std::map<std::string, KeyDoc> keys;
-    for (const KeyDoc& key : document(RunConfig{})) {
-        keys[key.path] = key;
+TEST(Configs, WrongNumbersAreNamed) {
+    const std::string key = "key 'pipeline.numbers'";
+    for (const std::string value : {"papr", "paper:alpha=q99", "paper:aplha=fp16"}) {
+        expect_refused({"pipeline.numbers=" + value},
+                       "--set pipeline.numbers=" + value + ": " + key);
     }
-    for (const KeyDoc& part : parts) {
-        ASSERT_EQ(keys.count("pipeline.formats." + part.path), 1U) << part.path;
-        const KeyDoc& key = keys["pipeline.formats." + part.path];
-        EXPECT_NE(key.doc.find(part.doc), std::string::npos);
-        EXPECT_EQ(key.default_value, part.type == "section" ? "" : "\"set\"");
-    }
-}
-
-TEST(Configs, WrongFormatsAreNamed) {
-    expect_refused({"pipeline.formats.alpha=q99"},
-                   "--set pipeline.formats.alpha=q99: key 'pipeline.formats.alpha' is 'q99', but "
-                   "must be fp64, fp32, fp16, bf16, [u]eEmM[bB]");
-    expect_refused({"pipeline.formats.exp.entries=5000"},
-                   "key 'pipeline.formats.exp.entries' is '5000', but must be an integer in "
-                   "decimal digits, 0 to 4096, or set.");
-    expect_refused({"pipeline.formats.base=middle"},
-                   "key 'pipeline.formats.base' is 'middle', but must be one of start, vertex");
-    expect_refused({"pipeline.formats.aplha=fp16"}, "did you mean 'pipeline.formats.alpha'?");
-    expect_refused({"pipeline.formats.exp=fp16"}, "'pipeline.formats.exp'");
-    expect_refused({"pipeline.numbers=tuned", "pipeline.formats.distance=uq18.12"},
-                   "--set pipeline.formats.distance=uq18.12: key 'pipeline.formats.distance' is "
-                   "'uq18.12', but must have a sign; q18.12 would do.");
-    expect_refused({"pipeline.numbers=tuned", "pipeline.formats.exponent=natural"},
-                   "--set pipeline.formats.exponent=natural: key 'pipeline.formats.q' is 'set' by "
-                   "default, but must reach beyond 11.08");
-    expect_refused({"pipeline.numbers=tuned", "pipeline.formats.exponent=natural"},
-                   "where alpha is 1/255 (set is uq3.13); fp16 would do");
-    expect_refused({"pipeline.numbers=fp32", "pipeline.formats.exp.interpolation=linear"},
-                   "key 'pipeline.formats.exp.entries' is 'set' by default, but must be at least 1 "
-                   "where there is a table (pipeline.formats.exp.interpolation is 'linear').");
+    expect_refused({"pipeline.numbers=papr"}, key + " is 'papr', but must be fp32, fp64, ideal, "
+                                                    "fp16, paper, tuned, or a number file, whose "
+                                                    "path has a dot or a slash (did you mean "
+                                                    "'paper'?).");
+    expect_refused({"pipeline.numbers=tuned:distance=uq18.12"},
+                   key + ": distance=uq18.12: key 'distance' is 'uq18.12', but must have a sign; "
+                         "q18.12 would do.");
+    expect_refused({"pipeline.formats.alpha=uq1.15"},
+                   "--set pipeline.formats.alpha=uq1.15: key 'pipeline.formats.alpha' is unknown; "
+                   "parts of a number set stand behind its name, as in pipeline.numbers: "
+                   "tuned:alpha=uq1.15, or in a number file that pipeline.numbers names.");
+    // A program that walks over the keys is told as well.
+    RunConfig design;
+    EXPECT_THROW(design.set("pipeline.numbers", "papr"), InputError);
+    EXPECT_EQ(design.get("pipeline.numbers"), "fp32");
+    design.set("pipeline.numbers", "tuned:records=fp32:guard=1.0");
+    EXPECT_EQ(design.get("pipeline.numbers"), "tuned:guard=1");
 }
 
 TEST(Configs, Degs64IsTheDefaultButForItsNumbers) {
@@ -195,7 +178,8 @@ int contexts_of(const std::string& design, const std::string& buffer, std::int64
         .tile_contexts();
 }
 
-// T and three colours: 4 x 32, 4 x 64, 4 x 16 bits, and 18 + 3 x 22 bits with `tuned`.
+// T and three colours: 4 x 32, 4 x 64, 4 x 16 bits, 18 + 3 x 22 bits with `tuned`, and 3 x 26 bits
+// with other sums.
 TEST(Configs, PixelStateIsAsWideAsItsNumbersNeed) {
     struct Numbers {
         const char* change;
@@ -211,13 +195,10 @@ TEST(Configs, PixelStateIsAsWideAsItsNumbersNeed) {
         for (const Numbers& numbers : {Numbers{"numbers=fp32", 128}, Numbers{"numbers=fp64", 256},
                                        Numbers{"numbers=ideal", 256}, Numbers{"numbers=fp16", 64},
                                        Numbers{"numbers=paper", 64}, Numbers{"numbers=tuned", 84},
-                                       Numbers{"formats.sum=q6.20", 0}}) {
+                                       Numbers{"numbers=paper:sum=q6.20", 3 * 26 + 16}}) {
             const std::string change = std::string("pipeline.") + numbers.change;
             SCOPED_TRACE(std::string(design.name) + " " + change);
-            const bool degs = design.name == std::string("degs-64");
-            // DeGS computes in paper, whose T has 16 bits, the others in fp32.
-            const std::int64_t bits = numbers.bits != 0 ? numbers.bits : 3 * 26 + (degs ? 16 : 32);
-            const std::int64_t four = 4 * bits * design.side * design.side / 8;
+            const std::int64_t four = 4 * numbers.bits * design.side * design.side / 8;
             EXPECT_EQ(contexts_of(design.name, design.buffer, four, {change}), 4);
             EXPECT_LT(contexts_of(design.name, design.buffer, four - 1, {change}), 4);
         }
@@ -236,7 +217,7 @@ TEST(Configs, BufferBelowOnePixelStateIsNamedWithTheNumbers) {
         EXPECT_NE(text.find("must be at least 8192 to hold 1 tile of 32 x 32 px"),
                   std::string::npos)
             << text;
-        EXPECT_NE(text.find("pipeline.numbers is paper"), std::string::npos) << text;
+        EXPECT_NE(text.find("pipeline.numbers is 'paper'"), std::string::npos) << text;
     }
 }
 

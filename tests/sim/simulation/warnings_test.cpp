@@ -32,7 +32,7 @@ TEST(SmallRunWarnings, NameTheFormatThatSaturates) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const std::string sentence =
         "Stage radius saturates: 1 of 100 splats (1.00 %) lie beyond 131000, the largest value of "
-        "ue5m15b14; pipeline.formats.radius sets another format.";
+        "ue5m15b14; ':radius=FORMAT' at the end of pipeline.numbers sets another.";
     EXPECT_NE(outcome.err.find("degs: warning: " + sentence + "\n"), std::string::npos)
         << outcome.err;
     const auto warnings = report_in(folder / "out").at("warnings");
@@ -57,7 +57,7 @@ std::vector<std::string> saturated_in(const std::string& design, const std::stri
         std::istringstream text(warning.get<std::string>());
         std::string word, stage, saturates;
         if (text >> word >> stage >> saturates && saturates == "saturates:") {
-            EXPECT_NE(warning.get<std::string>().find("pipeline.formats." + stage + " sets"),
+            EXPECT_NE(warning.get<std::string>().find("':" + stage + "=FORMAT' at the end"),
                       std::string::npos);
             stages.push_back(stage);
         }
@@ -78,8 +78,7 @@ TEST(SmallRunWarnings, NameWhatSaturatesBehindTheRecord) {
     write_camera(folder / "cameras.json", {0, 0, 0});
     EXPECT_EQ(saturated_in("degs-64-tuned", folder / "bright.ply"), (Stages{"weight", "sum"}));
     EXPECT_EQ(saturated_in("degs-64", folder / "bright.ply"), Stages{});
-    EXPECT_EQ(saturated_in("degs-64", folder / "bright.ply",
-                           {"pipeline.numbers=fp32", "pipeline.formats.sum=uq6.16"}),
+    EXPECT_EQ(saturated_in("degs-64", folder / "bright.ply", {"pipeline.numbers=fp32:sum=uq6.16"}),
               Stages{"sum"});
     EXPECT_EQ(saturated_in("gscore-64", folder / "bright.ply", {"pipeline.numbers=tuned"}),
               (Stages{"weight", "sum"}));
@@ -91,8 +90,9 @@ TEST(SmallRunWarnings, NameEveryStageThatSaturates) {
         {"distance", "q2.12"}, {"edge", "q4.12"}, {"g0", "uq2.13"},
         {"d0", "e4m11b19"},    {"term", "q1.13"}, {"weight", "uq0.2"}};
     for (const auto& [stage, format] : formats) {
-        const Stages found = saturated_in(
-            "degs-64-tuned", scene, {std::string("pipeline.formats.") + stage + "=" + format});
+        const Stages found =
+            saturated_in("degs-64-tuned", scene,
+                         {std::string("pipeline.numbers=tuned:") + stage + "=" + format});
         EXPECT_EQ(found, Stages{stage}) << format;
     }
 }

@@ -28,7 +28,7 @@ inline std::string failing_space(const Folder& folder) {
     const std::string file = folder / "failing.yaml";
     std::ofstream(file) << "study: failing\ndesigns:\n  - include: " << config("degs-64")
                         << "\n    name: degs-64\n"
-                           "    pipeline: { formats: { depth_key: ue4m12b3 } }\n"
+                           "    pipeline: { numbers: \"paper:depth_key=ue4m12b3\" }\n"
                            "    traffic: { list_entry_bytes: 6 }\n"
                            "axes:\n  traffic.list_entry_bytes: [4, 6]\n"
                            "  span.count: [4, 8, 16]\n"

@@ -215,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
         PathCase{"fp16", {}, SpanEnds::Exact, StopRule::After},
         PathCase{"paper", {}, SpanEnds::Slope, StopRule::Refuse},
         PathCase{"paper", {}, SpanEnds::Exact, StopRule::After},
-        PathCase{"paper", {"base=vertex", "q_mask=true"}, SpanEnds::Outward, StopRule::Refuse},
+        PathCase{"paper", {"span_base=vertex", "q_mask=true"}, SpanEnds::Outward, StopRule::Refuse},
         PathCase{"paper", {"alpha=uq1.15", "sqrt.entries=16"}, SpanEnds::Exact, StopRule::Refuse},
         PathCase{"tuned", {}, SpanEnds::Exact, StopRule::Refuse},
         PathCase{"tuned", {}, SpanEnds::Outward, StopRule::After},

@@ -29,7 +29,7 @@ std::vector<NumberSet> sets_with_all_orders() {
     sets.push_back(number_set("paper", {"square=e4m3", "ratio=uq1.4", "edge=q11.2"}));
     sets.push_back(number_set("paper", {"distance=q5.1", "level=uq2.3", "g0=e2m2", "d0=q3.1"}));
     sets.push_back(number_set("tuned", {"vertical=squared", "edge=e5m4", "sqrt.entries=5"}));
-    sets.push_back(number_set("paper", {"base=vertex", "guard=0.25"}));
+    sets.push_back(number_set("paper", {"span_base=vertex", "guard=0.25"}));
     return sets;
 }
 

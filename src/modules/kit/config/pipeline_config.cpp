@@ -15,9 +15,10 @@ const std::vector<std::string>& record_formats_of(Records records) {
 } // namespace
 
 void PipelineConfig::describe(ConfigVisitor& visitor) {
-    visitor.choice("numbers", numbers, arithmetic_names(),
-                   "arithmetic of spans, alpha and blending: the machine's fp32 or fp64 (also "
-                   "ideal), or a number set");
+    numbers.describe(visitor);
+    visitor.replaced("formats",
+                     "parts of a number set stand behind its name, as in pipeline.numbers: "
+                     "tuned:alpha=uq1.15, or in a number file that pipeline.numbers names");
     visitor.choice(
         "stop_rule", stop_rule, {"refuse", "after"},
         "refuse: the splat that would push T under 1e-4 is not blended (reference code); "
@@ -32,12 +33,6 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.boolean("round_records", round_records,
                     "round Gaussians to these formats before projection; no paper says that it "
                     "rounds, so records only count as bytes [assumed]");
-    NumberSet set = round_records ? number_set(set_of(numbers).name, record_formats_of(records))
-                                  : set_of(numbers);
-    visitor.begin_section("formats",
-                          "single parts of `numbers` in other formats; set: as they are there");
-    formats.describe(visitor, set);
-    visitor.end_section();
 }
 
 void PipelineConfig::describe_records(ConfigVisitor& visitor, TrafficConfig& traffic) const {
@@ -48,7 +43,7 @@ void PipelineConfig::describe_records(ConfigVisitor& visitor, TrafficConfig& tra
                         {key,
                          std::string("must hold ") + what + ", " + std::to_string(least) + " B",
                          std::to_string(least),
-                         {"pipeline.records", "pipeline.formats"}});
+                         {"pipeline.records", "pipeline.numbers"}});
     };
     const int bits = std::max(stored.sh_bits(0), (stored.sh_bits(1) - stored.sh_bits(0)) / 3);
     require("traffic.geometry_bytes", "mean, scale, rotation and opacity of a Gaussian",
@@ -62,29 +57,26 @@ void PipelineConfig::describe_records(ConfigVisitor& visitor, TrafficConfig& tra
                     {"traffic.list_entry_bytes",
                      "must hold a depth key of " + key.name() + " and an index of 16 bits at least",
                      std::to_string(entry),
-                     {"pipeline.formats.depth_key"}});
+                     {"pipeline.numbers"}});
 }
 
-std::vector<std::string> PipelineConfig::changes(bool with_records) const {
+std::vector<std::string> PipelineConfig::parts(bool with_records) const {
     std::vector<std::string> all =
         with_records ? record_formats_of(records) : std::vector<std::string>();
-    const std::vector<std::string> more = formats.assignments();
-    all.insert(all.end(), more.begin(), more.end());
+    all.insert(all.end(), numbers.parts.begin(), numbers.parts.end());
     return all;
 }
 
-NumberSet PipelineConfig::changed_set(bool with_records) const {
-    const NumberSet base = set_of(numbers);
-    return formats.applied_to(with_records ? number_set(base.name, record_formats_of(records))
-                                           : base);
+NumberSet PipelineConfig::set(bool with_records) const {
+    return number_set(set_of(numbers.base).name, parts(with_records));
 }
 
 int PipelineConfig::pixel_bits() const {
-    return degs::pixel_bits(changed_set(false));
+    return degs::pixel_bits(set(false));
 }
 
 cost::Precision PipelineConfig::precision() const {
-    switch (numbers) {
+    switch (numbers.base) {
     case Arithmetic::Fp32:
         return cost::Precision::Single;
     case Arithmetic::Fp64:
@@ -96,8 +88,8 @@ cost::Precision PipelineConfig::precision() const {
 }
 
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {
-    const DataPathOptions named = named_numbers(name_of(numbers), changes(round_records));
-    return {numbers, ends, delta, stop_rule, named.set, named.projection, rules};
+    const DataPathOptions named = named_numbers(name_of(numbers.base), parts(round_records));
+    return {numbers.base, ends, delta, stop_rule, named.set, named.projection, rules};
 }
 
 } // namespace degs
