@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <set>
 
+#include <regex.h>
+
 #include "config/config_scalar.hpp"
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
@@ -177,6 +179,18 @@ double drawn(const Draw& draw, const KeyDoc& key, const std::string& place) {
     return std::clamp(std::strtod(text, nullptr), low, high);
 }
 
+/// Whether a text is spelled as its key says. The expression is one of POSIX, as in
+/// accuracy_scene.cpp.
+bool is_spelled(const std::string& text, const std::string& spelling) {
+    regex_t form;
+    if (spelling.empty() || ::regcomp(&form, spelling.c_str(), REG_EXTENDED | REG_NOSUB) != 0) {
+        return true; // the key itself still checks it
+    }
+    const bool matches = ::regexec(&form, text.c_str(), 0, nullptr, 0) == 0;
+    ::regfree(&form);
+    return matches;
+}
+
 std::string choice_text(const AxisValue& value, const KeyDoc& key) {
     const std::string allowed = ", " + key.allowed + ",";
     if (value.text.empty() || allowed.find(", " + value.text + ",") == std::string::npos) {
@@ -268,6 +282,10 @@ std::string value_text(const AxisValue& value, const KeyDoc& key) {
         return choice_text(value, key);
     }
     if (!number) {
+        if (!is_spelled(value.text, key.spelling)) {
+            throw InputError(value.place + ": key " + quote(key.path) + " is " + quote(value.text) +
+                             ", but must be " + key.allowed + ".");
+        }
         return value.text;
     }
     if (value.draw) {

@@ -60,7 +60,9 @@ ordered_json axis_values(const KeyDoc& key, bool drawn, ordered_json& definition
         return one_or_list({{"enum", names_in(key.allowed)}});
     }
     if (key.type == "text") {
-        return one_or_list(kScalar);
+        return one_or_list(key.spelling.empty()
+                               ? kScalar
+                               : ordered_json{{"type", "string"}, {"pattern", key.spelling}});
     }
     const std::vector<std::string> units = units_of({key.path, key.doc});
     std::string name = drawn ? "samples" : "values";

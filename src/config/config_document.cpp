@@ -103,9 +103,10 @@ public:
         keys.push_back({path_.back(), "section", "", "", doc});
     }
     void end_section() override { path_.pop_back(); }
-    void spelled(const char* /*key*/, const std::string& /*expression*/,
+    void spelled(const char* /*key*/, const std::string& expression,
                  const std::string& allowed) override {
         keys.back().allowed = allowed;
+        keys.back().spelling = "^(" + expression + ")$";
     }
     std::vector<KeyDoc> keys;
 

@@ -17,8 +17,9 @@ struct KeyDoc {
     std::string path;          ///< hierarchical name, e.g. "memory.latency_ns"
     std::string type;          ///< section, integer, real, boolean, text or choice
     std::string default_value; ///< as it is written in YAML
-    std::string allowed;       ///< range or list of choices
+    std::string allowed;       ///< range, list of choices, or what a text must be
     std::string doc;
+    std::string spelling = ""; ///< of a text, as an extended regular expression; empty: any
 };
 
 using Describe = std::function<void(ConfigVisitor&)>;

@@ -46,6 +46,22 @@ std::string mistake_with(const std::string& axes, const std::string& more = "") 
     return "no error";
 }
 
+// A set that cannot be built is left out, as other designs that cannot; a word that is none is a
+// mistake.
+TEST(StudyAxes, NumberSetsMustBeSpelledAsSuch) {
+    EXPECT_THAT(values_with("  pipeline.numbers: [paper, \"tuned:alpha=uq1.15\"]\n"),
+                ElementsAre("paper", "tuned:alpha=uq1.15"));
+    EXPECT_THAT(mistake_with("  pipeline.numbers: [fp32, papr]\n"),
+                HasSubstr("s.yaml:6: key 'pipeline.numbers' is 'papr', but must be fp32, fp64, "
+                          "ideal, fp16, paper, tuned, or a number file"));
+    EXPECT_THAT(mistake_with("  pipeline.numbers: [\"tuned:alpha\"]\n"),
+                HasSubstr("key 'pipeline.numbers' is 'tuned:alpha', but must be "));
+    const StudyPlan plan = plan_with("  pipeline.numbers: [paper, \"tuned:alpha=q99\"]\n");
+    ASSERT_EQ(plan.skipped.size(), 1U);
+    EXPECT_THAT(plan.skipped[0].why,
+                HasSubstr("s.yaml:6: key 'pipeline.numbers': alpha=q99: key 'alpha' is 'q99', "));
+}
+
 TEST(StudyAxes, RangesMultiplyOrAdd) {
     EXPECT_THAT(values_with("  gaussian_buffer.bytes: 18KB..144KB x2\n"),
                 ElementsAre("18432", "36864", "73728", "147456"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Axes whose values are files: degs sweep over technologies and memories.
+#include <map>
 #include <sstream>
 
 #include "tests/sim/process/child.hpp"
@@ -75,6 +76,49 @@ TEST(FileAxes, LeaveOtherAxesTheLastWord) {
               "degs-64 cost.area_factor=0.5 cost.include=7nm clock_ghz=1.25");
     EXPECT_EQ(found["runs"][0]["area_mm2"], found["runs"][1]["area_mm2"]);
     EXPECT_NE(found["runs"][0]["energy"], found["runs"][1]["energy"]);
+}
+
+/// PSNR of degs-64 by its variants, in number sets that the study names.
+std::map<std::string, double> psnr_of(const std::string& file, const std::string& out) {
+    const nlohmann::json found = swept(file, out);
+    std::map<std::string, double> psnr;
+    for (std::size_t v = 0; v < found["variants"].size(); ++v) {
+        psnr[found["variants"][v]["name"]] = found["runs"][v]["image"]["psnr_db"];
+    }
+    return psnr;
+}
+
+// A number file lies beside the study, and what counts is what it says.
+TEST(FileAxes, VaryNumberSetsByTheirContent) {
+    const Folder folder;
+    const auto write = [&folder](const std::string& alpha) {
+        fs::create_directories(folder / "numbers");
+        std::ofstream(folder / "numbers/coarse.yaml") << "base: paper\nalpha: " << alpha << "\n";
+    };
+    const std::string file = folder / "study.yaml";
+    std::ofstream(file) << "designs:\n  - include: " << config("degs-64")
+                        << "\n    name: a\n  - include: " << config("degs-64")
+                        << "\n    name: b\n    pipeline: { numbers: numbers/coarse.yaml }\n"
+                        << "scenes: synthetic:object,gaussians=300\nwidth: 64\naxes:\n"
+                        << "  pipeline.numbers: [paper, numbers/coarse.yaml]\n";
+    write("uq0.4");
+    const std::string coarse = "a pipeline.numbers=numbers/coarse.yaml";
+    const auto first = psnr_of(file, folder / "o");
+    EXPECT_LT(first.at(coarse), first.at("a") - 10);
+    EXPECT_EQ(first.at(coarse), first.at("b pipeline.numbers=numbers/coarse.yaml"));
+    EXPECT_EQ(first.at("a"), first.at("b pipeline.numbers=paper"));
+    write("uq0.8"); // kept points of the other content do not count
+    const auto second = psnr_of(file, folder / "o");
+    EXPECT_GT(second.at(coarse), first.at(coarse) + 10);
+    EXPECT_EQ(second.at("a"), first.at("a"));
+    write("coarse");
+    const Outcome refused = degs({"sweep", file, "--list"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_EQ(refused.err.rfind("degs: " + (folder / "numbers/coarse.yaml") +
+                                    ":2: key 'alpha' is 'coarse', but must be ",
+                                0),
+              0U)
+        << refused.err;
 }
 
 TEST(HostileFileAxes, EndInASentence) {
