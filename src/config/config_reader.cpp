@@ -340,7 +340,7 @@ void ConfigReader::fail_unknown(const std::string& place, const std::string& sec
                      (keys.empty() ? "nothing" : keys) + ").");
 }
 
-/// Of a replaced key, or of one in a replaced section.
+/// What is said about a replaced key, or about one in a replaced section.
 const std::string* ConfigReader::advice_of(const std::string& path) const {
     const auto found = std::find_if(replaced_.begin(), replaced_.end(), [&](const auto& each) {
         return path == each.first || path.rfind(each.first + ".", 0) == 0;

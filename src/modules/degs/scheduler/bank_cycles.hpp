@@ -152,9 +152,8 @@ private:
     // Drawn tasks report the ends of their pixels when they are issued, so a report that the ring
     // does not hold yet is due later than now.
     bool has_terminations() const {
-        return slice_ != nullptr
-                   ? !terminations_.empty() && terminations_.head_date() <= now_
-                   : self_.arrived(terminations_);
+        return slice_ != nullptr ? !terminations_.empty() && terminations_.head_date() <= now_
+                                 : self_.arrived(terminations_);
     }
     void list_started();
     // An item that is there needs no proof.
@@ -267,7 +266,7 @@ private:
     std::uint32_t next_key_ = 0, key_step_ = 1;
     std::uint32_t key_mask_ = 0; // of the domain in a key; 0: keys are the order of arrival alone
     std::vector<std::vector<Domain>> domains_; // of the tiles that have some
-    std::vector<Tile> tiles_;     // stream by stream, by their turn modulo a power of two
+    std::vector<Tile> tiles_; // stream by stream, by their turn modulo a power of two
     std::size_t tile_mask_ = 0;
     // For Choice::Oldest alone: the lanes of all tiles, and the tile of each.
     DomainLanes all_lanes_{0};
@@ -285,8 +284,8 @@ private:
     std::uint64_t low_ = 1; // bit of the segment's first pixel
     const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see DrawnRow
     const RowMask* row_useful_ = nullptr;
-    DrawnRow taken_;     // a copy, unless its ring keeps it
-    RowSpan taken_span_; // for Outlet::Packed alone
+    DrawnRow taken_;          // a copy, unless its ring keeps it
+    RowSpan taken_span_;      // for Outlet::Packed alone
     BankStream* next_stream_; // whose span is taken next
     Cycle spans_from_ = 0;    // for Intake::Drawn: no stream has a span before, if no tile changes
     bool features_full_ = false, no_room_ = false, width_limited_ = false;

@@ -301,9 +301,9 @@ inline __attribute__((always_inline)) Cycle BankCycles::count_tasks(const Tile& 
 
 // Room in the Packing Buffer for these tasks of a segment, which are `count`, at least one.
 template <BankCycles::Outlet outlet>
-inline __attribute__((always_inline)) bool
-BankCycles::has_room(const TaskRun& run, std::uint32_t tasks, int count, Cycle slot,
-                     std::uint16_t feature) {
+inline __attribute__((always_inline)) bool BankCycles::has_room(const TaskRun& run,
+                                                                std::uint32_t tasks, int count,
+                                                                Cycle slot, std::uint16_t feature) {
     if constexpr (outlet == Outlet::Counted) {
         return packet_.fits(now_, slot, count) && packet_.can_write(now_, count);
     }

@@ -13,10 +13,9 @@ namespace degs {
 class BankLog {
 public:
     explicit BankLog(EventLog& log)
-        : log_(log), tile_(log.kind("tile", {{"tile", {}},
-                                             {"context", {}},
-                                             {"first_column", {}},
-                                             {"last_column", {}}})),
+        : log_(log),
+          tile_(log.kind(
+              "tile", {{"tile", {}}, {"context", {}}, {"first_column", {}}, {"last_column", {}}})),
           over_(log.kind("over", {{"tile", {}}, {"context", {}}})) {}
 
     /// A tile begins, of which the image has these columns.

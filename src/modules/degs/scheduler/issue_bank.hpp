@@ -36,9 +36,9 @@ enum class DomainScan { RoundRobin, Oldest, Deepest };
 /// each as soon as its conflict domain (row x segment) may be updated again. Inside a domain order
 /// is kept; across domains any ready one may go. Segments of terminated regions are dropped.
 ///
-/// Tiles come in one stream, or in several at once: spans are then taken from the streams in turn, a
-/// tile enters when it has its context of the Pixel Buffer, and the scan rule also chooses among the
-/// streams. BankCycles says what happens in a cycle.
+/// Tiles come in one stream, or in several at once: spans are then taken from the streams in turn,
+/// a tile enters when it has its context of the Pixel Buffer, and the scan rule also chooses among
+/// the streams. BankCycles says what happens in a cycle.
 class IssueBank : public sc_core::sc_module, public LoggedBlock {
 public:
     struct Config {
@@ -132,7 +132,7 @@ private:
     PackingUnit& packing_;
     int contexts_; // of a stream
     std::vector<BankStream> streams_;
-    int spans_per_cycle_; // that the crossbar delivers
+    int spans_per_cycle_;                            // that the crossbar delivers
     DatedFifo<Termination>* terminations_ = nullptr; // the ring behind `terminated`
     Process self_;
     Segmenter segmenter_;

@@ -45,8 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
     scan_name);
 
 /// A rule, and room for so many segments.
-class DomainScansOfManyDomains
-    : public ::testing::TestWithParam<std::tuple<DomainScan, int>> {};
+class DomainScansOfManyDomains : public ::testing::TestWithParam<std::tuple<DomainScan, int>> {};
 
 // 4096 domains of a pixel each. With the longer queue, the number of a domain and the order of
 // arrival do not fit one key.
@@ -58,8 +57,8 @@ TEST_P(DomainScansOfManyDomains, AreThoseOfANaiveBank) {
     sizes.scan = std::get<0>(GetParam());
     sizes.queue = std::get<1>(GetParam());
     SchedulerBench bench(sizes,
-                         {one_row(0, 15, 40, 0.1), one_row(20, 35, 7, 0.1),
-                          one_row(4, 19, 40, 0.1), one_row(0, 15, 63, 0.1)},
+                         {one_row(0, 15, 40, 0.1), one_row(20, 35, 7, 0.1), one_row(4, 19, 40, 0.1),
+                          one_row(0, 15, 63, 0.1)},
                          64);
     EventLog log;
     bench.bank.log_to(log);
