@@ -163,10 +163,9 @@ void add_by_option(const View& view) {
         {"packing.reorganisation=false", {"--set", "packing.reorganisation=false"}},
         {"--trace", {"--trace"}}};
     for (const auto& [name, more] : options) {
-        add_ratio("time per fragment, an option over none/" + std::string(name),
-                  [view, more = more](benchmark::State& state) {
-                      by_option(state, more, view, 1.6);
-                  });
+        add_ratio(
+            "time per fragment, an option over none/" + std::string(name),
+            [view, more = more](benchmark::State& state) { by_option(state, more, view, 1.6); });
     }
 }
 
