@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Hook of mkdocs.yml: links that work in the repository also work on the site.
 
-README.md becomes the front page and CHANGELOG.md a page, and the groups of README's section "Where to read on" become the
-navigation, so that the pages are listed once. A link from a page to a file or folder outside docs/ leads,
+README.md becomes the front page and CHANGELOG.md a page, and the groups of docs/pages.md become the navigation, so that
+the pages are listed once. A link from a page to a file or folder outside docs/ leads,
 on the site, to a generated page that shows the file or lists the folder. A link to something that does not exist is
 left alone, so that `mkdocs build --strict` reports it.
 """
@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 FROM_REPOSITORY = {"README.md": "index.md", "CHANGELOG.md": "changelog.md"}
 LINK = re.compile(r"(\]\()([^)\s#]+)(#[^)\s]*)?(\))")
 CODE = re.compile(r"(^```.*?^```$|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
-PAGES = "## Where to read on"
+PAGES = "docs/pages.md"
 GROUP = re.compile(r"^\* \*\*(.+?)\*\*: (.*?)(?=^\* |^\S|\Z)", re.MULTILINE | re.DOTALL)
 LEXERS = {".hpp": "cpp", ".cpp": "cpp", ".yaml": "yaml", ".sh": "bash", ".py": "python", ".txt": "cmake",
           ".cmake": "cmake"}
@@ -100,22 +100,22 @@ def add(files, config, page, text):
     files.append(File(page, generated.name, config["site_dir"], config["use_directory_urls"]))
 
 
-def navigation(readme):
-    """The entries of mkdocs.yml's `nav` that the list of pages in `readme` says: groups of pages with their titles."""
+def navigation(listed):
+    """The entries of mkdocs.yml's `nav` that the list of pages `listed` says: groups of pages with their titles."""
     groups = []
-    for name, text in GROUP.findall(readme.split(PAGES)[-1]):
+    for name, text in GROUP.findall(listed):
         entries = []
         for link in re.finditer(r"\[([^\]]+)\]\(([^)\s#]+)\)", text):
             title = " ".join(link[1].split())
-            entries.append({title[0].upper() + title[1:]: page_of(link[2])})
+            entries.append({title[0].upper() + title[1:]: page_of(target_of(link[2], PAGES) or link[2])})
         groups.append({name: entries})
     return groups
 
 
 def on_config(config):
-    groups = navigation((ROOT / "README.md").read_text())
+    groups = navigation((ROOT / PAGES).read_text() if (ROOT / PAGES).exists() else "")
     if not groups:
-        raise PluginError(f"README.md needs groups of pages ('* **Group**: [page](docs/page.md)') below '{PAGES}'")
+        raise PluginError(f"{PAGES} needs groups of pages ('* **Group**: [page](page.md)')")
     (first, entries), = groups[0].items()
     config["nav"] = [{first: ["index.md", *entries]}, *groups[1:]]
     return config

@@ -15,8 +15,9 @@ clean_tree() {
     cp "$here/../../scripts/site_hook.py" "$tree/scripts/"
     cp "$here/documents.py" "$tree/tests/docs/"
     echo 'int a;' >"$tree/src/a.cpp"
-    printf '%s\n' '# Front' '' '[page](docs/page.md#part), `run` and [source](src/a.cpp)' '' '## Where to read on' '' \
-        '* **Start**: [page](docs/page.md), [changes](CHANGELOG.md).' >"$tree/README.md"
+    printf '%s\n' '# Front' '' '[page](docs/page.md#part), `run` and [source](src/a.cpp)' >"$tree/README.md"
+    printf '%s\n' '# All pages' '' '* **Start**: [all](pages.md), [page](page.md), [changes](../CHANGELOG.md).' \
+        >"$tree/docs/pages.md"
     echo '# Changes' >"$tree/CHANGELOG.md"
     printf '# Page\n\n## Part\n\n[source](../src/a.cpp) [folder](../src) [front](../README.md)\n' >"$tree/docs/page.md"
     printf '%s\n' 'site_name: test' 'use_directory_urls: false' 'hooks: [scripts/site_hook.py]' \
@@ -82,9 +83,9 @@ if output=$("$here/site_check.sh" "$tree" 2>&1) || ! grep -qF 'the navigation do
     failures=$((failures + 1))
 fi
 clean_tree
-sed -i '/Start/d' "$tree/README.md"
-if output=$("$here/site_check.sh" "$tree" 2>&1) || ! grep -qF 'README.md needs groups of pages' <<<"$output"; then
-    echo "site_check.sh missed a README.md without a list of pages; it said: $output"
+sed -i '/Start/d' "$tree/docs/pages.md"
+if output=$("$here/site_check.sh" "$tree" 2>&1) || ! grep -qF 'docs/pages.md needs groups of pages' <<<"$output"; then
+    echo "site_check.sh missed a docs/pages.md without a list of pages; it said: $output"
     failures=$((failures + 1))
 fi
 
@@ -115,8 +116,8 @@ facts_tree() {
     rm -rf "${tree:?}"/*
     mkdir -p "$tree"/{docs,sim/run,src/baselines/{gbu,gcc,gscore},tests/baselines}
     touch "$tree"/src/baselines/{gbu,gcc,gscore}/cost.cpp
-    printf '%s\n' '# Front' '' '`src/baselines`, `sim`, `tests`, `docs`: GSCore, GBU and GCC.' >"$tree/README.md"
-    printf '%s\n' '# Rooms' '' '`src/baselines`, and `run` of `sim`.' >"$tree/docs/architecture.md"
+    printf '%s\n' '# Front' '' 'GSCore, GBU and GCC.' >"$tree/README.md"
+    printf '%s\n' '# Rooms' '' '`src/baselines`, `tests`, `docs`, and `run` of `sim`.' >"$tree/docs/architecture.md"
     printf '`degs config %s --keys own`\n' gbu gcc gscore >"$tree/docs/keys.md"
 }
 
@@ -151,18 +152,19 @@ finds_fact '' 'The test `docs/figures` and `src/baselines/*/cost.cpp`.'
 finds_fact 'links cost.cpp of gbu, gcc, but not of gscore' \
     '[GBU](../src/baselines/gbu/cost.cpp), [GCC](../src/baselines/gcc/cost.cpp)'
 facts_tree
-mkdir -p "$tree"/src/baselines/orange "$tree/sim/walk" "$tree/src/gone"
+mkdir -p "$tree"/src/baselines/orange "$tree/sim/walk" "$tree/src/gone" "$tree/more"
 echo 'ORANGE is new.' >>"$tree/README.md"
 check_facts 'README.md:3: a list of accelerators without ORANGE' 'a new accelerator'
 check_facts 'keys.md:1: there is no table of orange' 'a new accelerator'
 check_facts 'architecture.md:1: the table of rooms has no `walk` of sim' 'a new folder of sim'
-check_facts 'README.md:1: the table of folders has no `src/gone`' 'a new room'
-check_facts 'README.md:1: tests has no folder for src/gone' 'a room without tests'
+check_facts 'architecture.md:1: the table of rooms has no `src/gone`' 'a new room'
+check_facts 'architecture.md:1: the table of rooms has no `more`' 'a new folder'
+check_facts 'architecture.md:1: tests has no folder for src/gone' 'a room without tests'
 facts_tree
 mkdir -p "$tree/src/baselines/orange"
 printf '%s\n' '`degs config orange --keys own`' >>"$tree/docs/keys.md"
 printf '\nORANGE is new.\n\n<!-- without ORANGE: not in Table I -->\n\nGSCore, GBU and GCC.\n' >>"$tree/README.md"
-sed -i 's/: GSCore, GBU and GCC/: GSCore, GBU, GCC and ORANGE/' "$tree/README.md"
+sed -i '3s/GSCore, GBU and GCC/GSCore, GBU, GCC and ORANGE/' "$tree/README.md"
 check_facts '' 'a list with a reason'
 [[ $failures -eq 0 ]] || exit 1
 echo "documents self-test: every planted mistake was found"

@@ -2,7 +2,7 @@
 """site_links.py SITE DOCS: checks the links of the built site; prints each mistake as "page: reason".
 
 Every relative link must lead to a file and its anchor to an element there, no script, style sheet or image may come
-from another host, the navigation of the front page must reach every page of DOCS, and README.md must link it.
+from another host, the navigation of the front page must reach every page of DOCS, which docs/pages.md lists.
 """
 
 import sys
@@ -59,7 +59,7 @@ def problems(site, pages):
 def unreached(docs, front):
     for page in sorted(docs.glob("*.md")):
         if f"{page.stem}.html" not in front.navigation:
-            yield f"{page.name}: the navigation does not reach it; README.md lists the pages"
+            yield f"{page.name}: the navigation does not reach it; docs/pages.md lists the pages"
 
 
 def main():
