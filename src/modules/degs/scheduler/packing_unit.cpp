@@ -108,7 +108,8 @@ void PackingUnit::record_packet(Slot cause) {
 }
 
 bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
-    const Cycle queued = next_execution(now) - (now + packet_.latency()) + (packet_.open() ? 1 : 0);
+    const Cycle queued =
+        packet_.next_execution(now) - (now + packet_.latency()) + (packet_.open() ? 1 : 0);
     const Cycle most = config_.depth;
     if (queued + ports_->most_packets(mask, config_.width) <= most && packet_.unwritten(now) == 0) {
         return true; // even if the open packet takes none of them
@@ -188,7 +189,7 @@ void PackingUnit::send(Process& bank, Slot cause) {
 }
 
 void PackingUnit::send_due(Process& bank, Slot cause) {
-    if (due(bank.local())) {
+    if (packet_.due(bank.local())) {
         send(bank, cause);
     }
 }
@@ -196,7 +197,8 @@ void PackingUnit::send_due(Process& bank, Slot cause) {
 void PackingUnit::close_cycles(Process& bank, Cycle until, Slot cause) {
     if (packet_.leaves_slots(until)) {
         if (part_ != nullptr) {
-            record_cycles(bank, next_execution(bank.local()), until + packet_.latency(), cause);
+            record_cycles(bank, packet_.next_execution(bank.local()), until + packet_.latency(),
+                          cause);
         }
         since_last_[cause] += packet_.left_slots(bank.local(), until);
         idle_pending_ = true;

@@ -72,14 +72,12 @@ public:
     /// the simulation starts.
     void record(SlotPart* part) { part_ = part; }
 
-    /// Execution date of the next task if it is packed at `now`.
-    Cycle next_execution(Cycle now) const { return packet_.next_execution(now); }
     /// True if there is room for `tasks` tasks of `run` more at `now`, and if the packets that they
     /// complete can be written. Packets on their way through the pipeline, which are those that
     /// execute before now + latency, lie in its registers.
     bool room(Cycle now, const TaskRun& run, int tasks) const {
         const int closed = config_.reorganisation || joins(run) ? 0 : packet_.room();
-        return tasks == 0 || (packet_.fits(now, next_execution(now), closed + tasks) &&
+        return tasks == 0 || (packet_.fits(now, packet_.next_execution(now), closed + tasks) &&
                               packet_.can_write(now, closed + tasks));
     }
     /// True if there is room for the tasks `mask` with limited ports, where packets need not be
@@ -93,26 +91,21 @@ public:
     /// Sends the end of `tile`, which lies in `context` of the Pixel Buffer: the bank has nothing
     /// more for it.
     void end_tile(Process& bank, TileNumber tile, std::int16_t context);
-    /// True if an open packet must go at `now`.
-    bool due(Cycle now) const { return packet_.due(now); }
     /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`.
     /// Call it before the bank asks for its next date, because others rely on its doing nothing
     /// until then.
     void send_due(Process& bank, Slot cause);
     /// The cycles [bank.local(), until) are over for the bank; `until` may not lie beyond the date
-    /// given by open_until(). Accounts for those in which the array gets nothing, by `cause`.
+    /// given by OpenPacket::open_until(). Accounts for those in which the array gets nothing, by
+    /// `cause`.
     void close_cycles(Process& bank, Cycle until, Slot cause);
-    /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
-    Cycle open_until() const { return packet_.open_until(); }
-    /// True if close_cycles(bank, until, ...) would account for empty slots; otherwise
-    /// its cause does not matter.
-    bool leaves_slots(Cycle until) const { return packet_.leaves_slots(until); }
+    /// The packet that tasks go to next, with its dates.
+    OpenPacket& packet() { return packet_; }
 
     // For a bank that counts the tasks in packets by itself, in place of room() and add().
     /// True if packets need only be counted: their tasks have been drawn, nobody records them, and
     /// nothing but the width limits a packet.
     bool counts() const { return draws() && !packets_ && !picky() && config_.reorganisation; }
-    OpenPacket& packet() { return packet_; }
     /// The open packet leaves the bank at `now`.
     inline void send_counted(Cycle now);
     /// Another packet comes, so that the slots before it that stayed empty count.

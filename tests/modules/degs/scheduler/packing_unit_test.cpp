@@ -140,19 +140,19 @@ TEST(PackingUnit, CompactsSegmentsInOrder) {
 TEST(PackingUnit, AnOpenPacketGoesWhenItsSlotComes) {
     PackingBench bench;
     bench.drive([&] {
-        EXPECT_EQ(bench.unit.open_until(), kNever);
+        EXPECT_EQ(bench.unit.packet().open_until(), kNever);
         EXPECT_EQ(bench.add(run_of(0xFFF)), kLatency + 2); // slots 2, 3, 4
-        EXPECT_EQ(bench.unit.next_execution(0), 5U);
+        EXPECT_EQ(bench.unit.packet().next_execution(0), 5U);
         bench.add(run_of(0x1)); // opens slot 5
-        EXPECT_EQ(bench.unit.open_until(), 3U);
-        EXPECT_FALSE(bench.unit.due(2));
-        EXPECT_TRUE(bench.unit.due(3));
+        EXPECT_EQ(bench.unit.packet().open_until(), 3U);
+        EXPECT_FALSE(bench.unit.packet().due(2));
+        EXPECT_TRUE(bench.unit.packet().due(3));
         bench.next_cycle(2);
         EXPECT_EQ(bench.add(run_of(0x2)), 5U); // joins
         bench.next_cycle(3);
         bench.next_cycle(9);
-        EXPECT_EQ(bench.unit.open_until(), kNever);
-        EXPECT_EQ(bench.unit.next_execution(9), 9 + kLatency);
+        EXPECT_EQ(bench.unit.packet().open_until(), kNever);
+        EXPECT_EQ(bench.unit.packet().next_execution(9), 9 + kLatency);
         bench.add(run_of(0xF));
         bench.next_cycle(10);
     });
