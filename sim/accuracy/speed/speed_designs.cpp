@@ -5,11 +5,6 @@
 #include "sim/accuracy/speed/speed.hpp"
 
 namespace degs::sim {
-namespace {
-
-const std::string kNumbers = "pipeline.numbers";
-
-} // namespace
 
 SpeedFidelity speed_fidelity(const std::string& name) {
     SpeedFidelity fidelity;
@@ -35,7 +30,7 @@ std::vector<SpeedDesign> speed_designs(const std::vector<std::string>& configs,
     std::vector<SpeedDesign> designs;
     const std::vector<NamedConfig> own = load_configs(configs, overrides, memory);
     for (std::size_t c = 0; c < own.size(); ++c) {
-        const std::string own_set = own[c].config.get(kNumbers);
+        const std::string own_set = own[c].config.get("pipeline.numbers");
         std::vector<std::string> sets{"ideal"};
         for (const std::string& set :
              numbers.empty() ? std::vector<std::string>{"fp32", own_set} : numbers) {
@@ -46,7 +41,8 @@ std::vector<SpeedDesign> speed_designs(const std::vector<std::string>& configs,
         for (const std::string& set : sets) {
             std::vector<std::string> changes = overrides;
             if (set != own_set) {
-                changes.push_back(own[c].name + ":" + kNumbers + "=" + set);
+                changes.push_back(own[c].name);
+                changes.back().append(":pipeline.numbers=").append(set);
             }
             designs.push_back({own[c].name, set, load_configs(configs, changes, memory)[c].config});
         }

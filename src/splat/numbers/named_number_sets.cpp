@@ -183,6 +183,23 @@ const std::vector<std::string>& record_formats(std::size_t set) {
     return record_sets().at(set).formats;
 }
 
+namespace {
+
+/// Throws InputError for an unknown name, which begins with its place.
+const RecordSet& record_set(const std::string& name, const std::string& place) {
+    const std::vector<RecordSet>& sets = record_sets();
+    const auto set = std::find_if(sets.begin(), sets.end(),
+                                  [&name](const RecordSet& each) { return each.name == name; });
+    if (set == sets.end()) {
+        const std::vector<const char*>& names = record_set_names();
+        throw InputError(place + ": there are no records '" + name + "'; there are " +
+                         config_words::list({names.begin(), names.end()}) + ".");
+    }
+    return *set;
+}
+
+} // namespace
+
 std::vector<std::string> with_record_formats(const std::vector<std::string>& assignments,
                                              const std::string& option) {
     const std::string key = "records=";
@@ -192,17 +209,8 @@ std::vector<std::string> with_record_formats(const std::vector<std::string>& ass
             all.push_back(assignment);
             continue;
         }
-        const std::string name = assignment.substr(key.size());
-        const auto& sets = record_sets();
-        const auto set = std::find_if(sets.begin(), sets.end(),
-                                      [&name](const RecordSet& each) { return each.name == name; });
-        if (set == sets.end()) {
-            const std::vector<const char*>& names = record_set_names();
-            throw InputError(option + " " + assignment + ": there are no records '" + name +
-                             "'; there are " + config_words::list({names.begin(), names.end()}) +
-                             ".");
-        }
-        all.insert(all.end(), set->formats.begin(), set->formats.end());
+        const RecordSet& set = record_set(assignment.substr(key.size()), option + " " + assignment);
+        all.insert(all.end(), set.formats.begin(), set.formats.end());
     }
     return all;
 }

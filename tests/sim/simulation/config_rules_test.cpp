@@ -238,7 +238,9 @@ private:
     std::vector<std::string> path_{""};
 };
 
+// One rule says a formula in place of a value that would do, and has a test of its own.
 TEST(ConfigRuleSentences, EveryRuleIsInTheListAbove) {
+    const std::string kRuleOfAFormula = "pipeline.rules.sigma_beta";
     for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64", "orange-o4"}) {
         RunConfig config = load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", {});
         RuleKeys rules;
@@ -248,7 +250,7 @@ TEST(ConfigRuleSentences, EveryRuleIsInTheListAbove) {
             const auto& list = broken_rules();
             const bool tested = std::any_of(
                 list.begin(), list.end(), [&](const Broken& broken) { return broken.key == key; });
-            EXPECT_TRUE(tested) << design << " " << key;
+            EXPECT_TRUE(tested || key == kRuleOfAFormula) << design << " " << key;
         }
     }
 }
