@@ -238,9 +238,13 @@ private:
     std::vector<std::string> path_{""};
 };
 
-// One rule says a formula in place of a value that would do, and has a test of its own.
+// One rule says a formula in place of a value that would do, so that its sentence proposes none.
 TEST(ConfigRuleSentences, EveryRuleIsInTheListAbove) {
     const std::string kRuleOfAFormula = "pipeline.rules.sigma_beta";
+    EXPECT_NE(
+        sentence_of("degs-64", {"pipeline.rules.sigma_alpha=0.1"})
+            .find("key '" + kRuleOfAFormula + "' is 2 by default, but must be at least alpha"),
+        std::string::npos);
     for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64", "orange-o4"}) {
         RunConfig config = load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", {});
         RuleKeys rules;
