@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Number sets by name.
 #include <algorithm>
+#include <string_view>
 
 #include "config/config_source.hpp"
 #include "config/config_words.hpp"
@@ -185,15 +186,18 @@ const std::vector<std::string>& record_formats(std::size_t set) {
 
 namespace {
 
-/// Throws InputError for an unknown name, which begins with its place.
-const RecordSet& record_set(const std::string& name, const std::string& place) {
+constexpr std::string_view kRecords = "records=";
+
+/// The records that an assignment names. Throws InputError for an unknown name.
+const RecordSet& record_set(const std::string& assignment, const std::string& option) {
+    const std::string name = assignment.substr(kRecords.size());
     const std::vector<RecordSet>& sets = record_sets();
     const auto set = std::find_if(sets.begin(), sets.end(),
                                   [&name](const RecordSet& each) { return each.name == name; });
     if (set == sets.end()) {
         const std::vector<const char*>& names = record_set_names();
-        throw InputError(place + ": there are no records '" + name + "'; there are " +
-                         config_words::list({names.begin(), names.end()}) + ".");
+        throw InputError(option + " " + assignment + ": there are no records '" + name +
+                         "'; there are " + config_words::list({names.begin(), names.end()}) + ".");
     }
     return *set;
 }
@@ -202,14 +206,13 @@ const RecordSet& record_set(const std::string& name, const std::string& place) {
 
 std::vector<std::string> with_record_formats(const std::vector<std::string>& assignments,
                                              const std::string& option) {
-    const std::string key = "records=";
     std::vector<std::string> all;
     for (const std::string& assignment : assignments) {
-        if (assignment.compare(0, key.size(), key) != 0) {
+        if (assignment.compare(0, kRecords.size(), kRecords) != 0) {
             all.push_back(assignment);
             continue;
         }
-        const RecordSet& set = record_set(assignment.substr(key.size()), option + " " + assignment);
+        const RecordSet& set = record_set(assignment, option);
         all.insert(all.end(), set.formats.begin(), set.formats.end());
     }
     return all;
