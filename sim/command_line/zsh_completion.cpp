@@ -101,8 +101,8 @@ std::string choice_lines(const OptionEntry& option, const std::string& name,
     for (const std::string& choice : option.choices) {
         const ZshWords tests = tests_of({option.names.front() + "=" + choice}, all);
         if (!tests.empty()) {
-            lines +=
-                "    " + any_of(tests) + " && " + name + "=(${" + name + ":#" + choice + "})\n";
+            lines.append("    ").append(any_of(tests)).append(" && ").append(name);
+            lines.append("=(${").append(name).append(":#").append(choice).append("})\n");
         }
     }
     return lines.empty() ? ""

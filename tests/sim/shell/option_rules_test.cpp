@@ -104,8 +104,12 @@ const std::map<std::string, Words> kValues{{"--views", {"0,1"}},
                                            {"config", {"degs"}},
                                            {"command", {"run"}},
                                            {"out", {"scene.glb"}}};
-const std::map<std::string, std::string> kOthers{
-    {"--frames", "2"}, {"--between", "2"}, {"--of", "compare"}};
+const std::map<std::string, std::string> kOthers{{"--frames=1", "2"},
+                                                 {"--between=0", "2"},
+                                                 {"--of=run", "compare"},
+                                                 {"--search=halving", "evolution"},
+                                                 {"--search=evolution", "halving"},
+                                                 {"--cpu=riscv", "host"}};
 
 /// A term as words of a command line.
 Words line_of(const OptionTerm& term) {
@@ -114,7 +118,7 @@ Words line_of(const OptionTerm& term) {
         words.clear();
     }
     if (term.other) {
-        words.push_back(kOthers.at(term.option));
+        words.push_back(kOthers.at(term.option + "=" + term.value));
     } else if (!term.value.empty()) {
         words.push_back(term.value == "sampled" ? "sampled:10%" : term.value);
     } else if (const auto value = kValues.find(term.option); value != kValues.end()) {
@@ -127,7 +131,8 @@ Words line_of(const OptionTerm& term) {
 
 bool stands_in(const Terms& line, const OptionTerm& term) {
     return std::any_of(line.begin(), line.end(), [&term](const OptionTerm& each) {
-        return each.option == term.option && (term.value.empty() || each.value == term.value);
+        return each.option == term.option &&
+               (term.value.empty() || (each.value == term.value && each.other == term.other));
     });
 }
 
@@ -144,7 +149,8 @@ void add_needs(const std::vector<OptionRule>& rules, const OptionRule& rule, Ter
     }
 }
 
-/// Each way to break the rule: an option and, if it must not stand with another, the other.
+/// Each way to break the rule: an option and, if it must not stand with another, the other; where
+/// it needs a value, another one, because the value may be the default.
 std::vector<Terms> breaches_of(const OptionRule& rule) {
     const Terms others = rule.needs ? Terms{} : rule.others;
     std::vector<Terms> all;
@@ -153,7 +159,11 @@ std::vector<Terms> breaches_of(const OptionRule& rule) {
     }
     for (const OptionTerm& option : rule.options) {
         if (rule.needs) {
+            const OptionTerm& needed = rule.others.front();
             all.push_back({option});
+            if (!needed.value.empty()) {
+                all.back().push_back({needed.option, needed.value, true});
+            }
         }
         for (const OptionTerm& other : others) {
             all.push_back({option, other});
