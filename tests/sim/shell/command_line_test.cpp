@@ -200,7 +200,8 @@ TEST(ZshCompletion, HasTheOptionsAndCommandsOfTheHelp) {
 TEST(ZshCompletion, KnowsValuesFilesAndWhatMayBeRepeated) {
     const std::string script = degs({"help", "--zsh-completion"}).out;
     const std::string run = zsh_function(script, "degs_run");
-    EXPECT_NE(run.find(":(exact strict analytic)'"), std::string::npos) << run;
+    EXPECT_NE(run.find("choices_fidelity=(exact strict analytic)\n"), std::string::npos) << run;
+    EXPECT_NE(run.find("]:TEXT:($choices_fidelity)'"), std::string::npos) << run;
     EXPECT_NE(run.find("'(--scene)'--scene'["), std::string::npos) << run;
     EXPECT_NE(run.find("]:SCENE:__degs_scenes'"), std::string::npos) << run;
     EXPECT_NE(run.find("'*'--set'["), std::string::npos) << run;
