@@ -4,24 +4,19 @@
 #include <string>
 
 #include "config/key_walk.hpp"
+#include "config/written_values.hpp"
 
 namespace degs {
 
-/// Writes keys with their values.
-class KeyText : public KeyVisitor {
+/// Writes keys with their values, real numbers by their bits, which no rounding makes equal.
+class KeyText : public WrittenValues {
 public:
     const std::string& text() const { return text_; }
-    void integer(const std::string& path, std::int64_t& value, std::int64_t low, std::int64_t high,
-                 const std::string& doc) override;
     void real(const std::string& path, double& value, double low, double high,
               const std::string& doc) override;
-    void boolean(const std::string& path, bool& value, const std::string& doc) override;
-    void text(const std::string& path, std::string& value, const std::string& doc) override;
-    void choice(const std::string& path, int& value, const std::vector<std::string>& names,
-                const std::string& doc) override;
 
 private:
-    void add(const std::string& path, const std::string& value);
+    void see(const std::string& path, const std::string& value) override;
 
     std::string text_;
 };

@@ -11,6 +11,7 @@
 #include "config/config_source.hpp"
 #include "config/config_words.hpp"
 #include "config/key_walk.hpp"
+#include "config/written_values.hpp"
 
 namespace degs {
 namespace {
@@ -54,32 +55,14 @@ Words split(const std::string& text) {
 }
 
 /// Collects those of the parts of a number set that have been named, with their values.
-class NamedParts : public KeyVisitor {
+class NamedParts : public WrittenValues {
 public:
     explicit NamedParts(std::set<std::string> names) : names_(std::move(names)) {}
 
-    void integer(const std::string& path, std::int64_t& value, std::int64_t /*low*/,
-                 std::int64_t /*high*/, const std::string& /*doc*/) override {
-        see(path, config_words::number(value));
-    }
-    void real(const std::string& path, double& value, double /*low*/, double /*high*/,
-              const std::string& /*doc*/) override {
-        see(path, config_words::number(value));
-    }
-    void boolean(const std::string& path, bool& value, const std::string& /*doc*/) override {
-        see(path, value ? "true" : "false");
-    }
-    void text(const std::string& path, std::string& value, const std::string& /*doc*/) override {
-        see(path, value);
-    }
-    void choice(const std::string& path, int& value, const Words& names,
-                const std::string& /*doc*/) override {
-        see(path, names.at(value));
-    }
     Words parts;
 
 private:
-    void see(const std::string& path, const std::string& value) {
+    void see(const std::string& path, const std::string& value) override {
         if (names_.count(path) != 0) {
             parts.push_back(path);
             parts.back().append("=").append(value);
