@@ -7,37 +7,37 @@
 namespace degs {
 
 void BankCycles::run() {
-    if (counts_) {
-        run_from<Outlet::Counted>();
+    if (counts_ && !pipeline_.exists() && keys_name_domains()) {
+        run_from<Kind::Plain>();
     } else {
-        run_from<Outlet::Packed>();
+        run_from<Kind::General>();
     }
     finish();
 }
 
-template <BankCycles::Outlet outlet>
+template <BankCycles::Kind kind>
 void BankCycles::run_from() {
     if (spans_ != nullptr) {
-        run_by<outlet, Intake::Single>();
+        run_by<kind, Intake::Single>();
     } else if (streams_.front().inputs.front().spans != nullptr) {
-        run_by<outlet, Intake::Drawn>();
+        run_by<kind, Intake::Drawn>();
     } else {
-        run_by<outlet, Intake::Rings>();
+        run_by<kind, Intake::Rings>();
     }
 }
 
-template <BankCycles::Outlet outlet, BankCycles::Intake intake>
+template <BankCycles::Kind kind, BankCycles::Intake intake>
 void BankCycles::run_by() {
     switch (choice_) {
     case Choice::InTurn:
-        run_cycles<outlet, intake, Choice::InTurn>();
+        run_cycles<kind, intake, Choice::InTurn>();
         break;
     case Choice::Keyed:
-        run_cycles<outlet, intake, Choice::Keyed>();
+        run_cycles<kind, intake, Choice::Keyed>();
         break;
     case Choice::Oldest:
-        if constexpr (outlet == Outlet::Counted && intake != Intake::Single) {
-            run_cycles<outlet, intake, Choice::Oldest>();
+        if constexpr (kind == Kind::Plain && intake != Intake::Single) {
+            run_cycles<kind, intake, Choice::Oldest>();
         }
         break;
     }
@@ -54,26 +54,28 @@ inline bool BankCycles::can_cut() const {
     return left_ > 0 && (free_ != nullptr || (cut_mask() & cut_tile_->domains[cut_].live) == 0);
 }
 
-template <BankCycles::Outlet outlet, BankCycles::Intake intake, BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Intake intake, BankCycles::Choice choice>
 void BankCycles::run_cycles() {
     for (bool over = this->over(); !over;) {
         now_ = self_.local();
-        if (has_terminations()) {
+        if (has_terminations<kind>()) {
             end_pixels();
         }
         if (contexts_owed_ && now_ >= contexts_from_) {
             see_contexts();
         }
-        accept<outlet, intake, choice>();
-        const bool issued = issue<outlet, intake, choice>() != 0;
+        accept<kind, intake, choice>();
+        const bool issued = issue<kind, intake, choice>() != 0;
         if (closing_ != 0) {
             finish_tiles();
             over = this->over();
         }
         bool works = issued || can_cut();
-        if (pipeline_.exists()) {
-            choose<choice>();
-            works = works || !pipeline_.empty();
+        if constexpr (kind == Kind::General) {
+            if (pipeline_.exists()) {
+                choose<choice>();
+                works = works || !pipeline_.empty();
+            }
         }
         if (!works) {
             over = this->over(); // if it became so elsewhere, there is nothing left to do
@@ -98,15 +100,15 @@ void BankCycles::run_cycles() {
 
 // Intake.
 
-template <BankCycles::Outlet outlet, BankCycles::Intake intake, BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Intake intake, BankCycles::Choice choice>
 inline __attribute__((always_inline)) void BankCycles::accept() {
     features_full_ = false;
     int spans = spans_per_cycle_;
     for (int budget = segments_per_cycle_; budget > 0; --budget) {
-        if (left_ <= 0 && (spans-- == 0 || !open_span<outlet, intake>())) {
+        if (left_ <= 0 && (spans-- == 0 || !open_span<kind, intake>())) {
             break;
         }
-        if (!cut_segment<outlet, choice>()) {
+        if (!cut_segment<kind, choice>()) {
             break;
         }
     }
@@ -124,10 +126,10 @@ inline __attribute__((always_inline)) Cycle BankCycles::next_span_from(const Ban
 }
 
 // Takes a span of the next stream that has one, in turn; a span cut halfway is finished first.
-template <BankCycles::Outlet outlet, BankCycles::Intake intake>
+template <BankCycles::Kind kind, BankCycles::Intake intake>
 inline __attribute__((always_inline)) bool BankCycles::open_span() {
     if constexpr (intake == Intake::Single) {
-        return take_from<outlet, intake>(streams_.front());
+        return take_from<kind, intake>(streams_.front());
     }
     if (intake == Intake::Drawn && now_ < spans_from_) {
         return false;
@@ -137,7 +139,7 @@ inline __attribute__((always_inline)) bool BankCycles::open_span() {
     do {
         BankStream& stream = *next_stream_;
         next_stream_ = stream.next;
-        if (take_from<outlet, intake>(stream)) {
+        if (take_from<kind, intake>(stream)) {
             return true;
         }
         if constexpr (intake == Intake::Drawn) {
@@ -214,7 +216,7 @@ inline __attribute__((always_inline)) void BankCycles::start_drawn(const Row& ro
 }
 
 // False if no span of the stream may be taken. Ends of tiles on the way cost nothing.
-template <BankCycles::Outlet outlet, BankCycles::Intake intake>
+template <BankCycles::Kind kind, BankCycles::Intake intake>
 inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& stream) {
     for (;;) {
         BankStream::Input* const source = earliest_input<intake>(stream);
@@ -237,7 +239,7 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
             if (row) {
                 start(stream, span.row, span.x0, span.length);
                 start_drawn(span);
-                if constexpr (outlet == Outlet::Packed) {
+                if constexpr (kind == Kind::General) {
                     taken_span_.splat = span.splat;
                 }
             }
@@ -254,11 +256,11 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
             }
             if (row) {
                 start(stream, item.span->y, item.span->x0, item.span->length);
-                if (slice_ != nullptr) {
+                if (kind == Kind::Plain || slice_ != nullptr) {
                     taken_ = item.drawn;
                     start_drawn(taken_);
                 }
-                if constexpr (outlet == Outlet::Packed) {
+                if constexpr (kind == Kind::General) {
                     taken_span_ = *item.span;
                 }
             }
@@ -273,13 +275,13 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
 }
 
 // False if the queue has no room; the segment is then cut later.
-template <BankCycles::Outlet outlet, BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) bool BankCycles::cut_segment() {
     Domain& domain = cut_tile_->domains[cut_];
     const std::uint32_t mask = cut_mask();
     if ((mask & domain.live) == 0) {
         stats_.drop(mask);
-        if (outlet == Outlet::Counted || slice_ != nullptr) {
+        if (kind == Kind::Plain || slice_ != nullptr) {
             inside_ -= __builtin_popcount(mask & row_inside_->from(column_));
         }
     } else {
@@ -289,14 +291,14 @@ inline __attribute__((always_inline)) bool BankCycles::cut_segment() {
         }
         free_ = segment->next;
         segment->mask = mask;
-        if (outlet == Outlet::Counted || slice_ != nullptr) {
+        if (kind == Kind::Plain || slice_ != nullptr) {
             segment->inside = row_inside_->from(column_);
             segment->ended = row_ended_->from(column_);
         }
         segment->next = nullptr;
         segment->feature = features_.current();
         features_.hold(segment->feature);
-        if constexpr (outlet == Outlet::Packed) {
+        if constexpr (kind == Kind::General) {
             keep_values(*segment);
         }
         *domain.end = segment;
@@ -306,7 +308,7 @@ inline __attribute__((always_inline)) bool BankCycles::cut_segment() {
         if (++size_ > stats_.queue_high_water) {
             stats_.queue_high_water = size_;
         }
-        list_segment<choice>(*segment, domain);
+        list_segment<kind, choice>(*segment, domain);
     }
     ++segments_in_;
     column_ += segment_length_;
@@ -318,22 +320,19 @@ inline __attribute__((always_inline)) bool BankCycles::cut_segment() {
 
 // The newest segment of a domain of the tile that is cut waits. The choice sees nothing of it in a
 // domain that has been chosen, until its oldest one is packed.
-template <BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) void BankCycles::list_segment(Waiting& segment,
                                                                     Domain& domain) {
     DomainLanes& lanes = cut_tile_->lanes;
-    const bool shown = domain.held == 0;
+    const bool shown = kind == Kind::Plain || domain.held == 0;
     if (choice == Choice::InTurn) {
         if (shown) {
             lanes.set_waiting(cut_, true);
         }
         return;
     }
-    const std::uint32_t number = key_mask_ == 0 ? 0
-                                 : choice == Choice::Oldest
-                                     ? static_cast<std::uint32_t>(cut_tile_->first_lane + cut_)
-                                     : static_cast<std::uint32_t>(cut_);
-    segment.key = next_key_ | number;
+    const int number = choice == Choice::Oldest ? cut_tile_->first_lane + cut_ : cut_;
+    segment.key = next_key_ | (static_cast<std::uint32_t>(number) & key_mask_);
     if (shown) {
         lanes.set_key(cut_, std::min(lanes.key(cut_), segment.key)); // an older one stays
     }

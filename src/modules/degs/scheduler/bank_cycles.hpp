@@ -2,8 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
-#include <utility>
+#include <memory>
 #include <vector>
 
 #include "modules/degs/scheduler/domain_lanes.hpp"
@@ -61,16 +60,16 @@ private:
         Drawn,  ///< DrawnSpans, one per stream
         Rings   ///< rings of the crossbar
     };
-    /// Where tasks go.
-    enum class Outlet {
-        Counted, ///< into packets that are counted here
-        Packed   ///< to the Packing Unit, which looks at them
+    /// What the loop over cycles asks about.
+    enum class Kind {
+        Plain,  ///< nothing more: packets are counted, and segments go in the cycle of the choice
+        General ///< whether the Packing Unit looks at tasks, and whether the bank chooses ahead
     };
-    template <Outlet outlet>
+    template <Kind kind>
     void run_from();
-    template <Outlet outlet, Intake intake>
+    template <Kind kind, Intake intake>
     void run_by();
-    template <Outlet outlet, Intake intake, Choice choice>
+    template <Kind kind, Intake intake, Choice choice>
     void run_cycles();
     static Choice choice_of(const Parts& parts);
 
@@ -100,12 +99,14 @@ private:
     };
     /// The bank's part of a tile in flight.
     struct Tile {
+        explicit Tile(int count) : own(count), domains(own.data()) {}
+        std::vector<Domain> own; // entries point at them
+        Domain* domains;         // these, at hand in the hot loop
         DomainLanes lanes{0};
-        int first_lane = 0;        // of all_lanes_; for Choice::Oldest alone
-        Domain* domains = nullptr; // nullptr: no tile has been here
-        bool started = false;      // may issue
-        std::size_t waiting = 0;   // segments
-        std::uint32_t cursor = 0;  // behind the domain that issued last
+        int first_lane = 0;       // of all_lanes_; for Choice::Oldest alone
+        bool started = false;     // may issue
+        std::size_t waiting = 0;  // segments
+        std::uint32_t cursor = 0; // behind the domain that issued last
         TileNumber number = kNoTile;
         std::int16_t context = 0;
     };
@@ -119,12 +120,12 @@ private:
     };
 
     // Intake.
-    template <Outlet outlet, Intake intake, Choice choice>
+    template <Kind kind, Intake intake, Choice choice>
     inline void accept();
-    template <Outlet outlet, Intake intake>
+    template <Kind kind, Intake intake>
     inline bool open_span();
     static inline Cycle next_span_from(const BankStream& stream);
-    template <Outlet outlet, Intake intake>
+    template <Kind kind, Intake intake>
     inline bool take_from(BankStream& stream);
     template <Intake intake>
     inline DrawnSpans& spans_of(const BankStream::Input& input) const;
@@ -135,15 +136,15 @@ private:
     template <class Row>
     inline void start_drawn(const Row& row);
     [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number);
-    template <Outlet outlet, Choice choice>
+    template <Kind kind, Choice choice>
     inline bool cut_segment();
-    template <Choice choice>
+    template <Kind kind, Choice choice>
     inline void list_segment(Waiting& segment, Domain& domain);
     void keep_values(const Waiting& segment);
     inline std::uint32_t cut_mask() const;
     inline bool can_cut() const;
     [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
-    void make_domains(Tile& tile);
+    void make_tile(std::unique_ptr<Tile>& place);
     [[gnu::noinline]] void renumber();
     [[gnu::noinline]] void end_pixels();
     void end_pixels(const Termination& message);
@@ -151,9 +152,11 @@ private:
     void end_pixels(Domain& domain, std::uint32_t mask) const;
     // Drawn tasks report the ends of their pixels when they are issued, so a report that the ring
     // does not hold yet is due later than now.
+    template <Kind kind>
     bool has_terminations() const {
-        return slice_ != nullptr ? !terminations_.empty() && terminations_.head_date() <= now_
-                                 : self_.arrived(terminations_);
+        return kind == Kind::Plain || slice_ != nullptr
+                   ? !terminations_.empty() && terminations_.head_date() <= now_
+                   : self_.arrived(terminations_);
     }
     void list_started();
     // An item that is there needs no proof.
@@ -169,21 +172,21 @@ private:
     }
 
     // Issue.
-    template <Outlet outlet, Intake intake, Choice choice>
+    template <Kind kind, Intake intake, Choice choice>
     inline int issue();
-    template <Outlet outlet, Choice choice>
+    template <Kind kind, Choice choice>
     inline int issue_in_order();
-    template <Outlet outlet, Choice choice>
+    template <Kind kind, Choice choice>
     inline int issue_from_all();
-    template <Outlet outlet>
+    template <Kind kind>
     inline int issue_oldest();
-    template <Outlet outlet, Choice choice>
+    template <Kind kind, Choice choice>
     [[gnu::noinline]] int issue_chosen();
     template <Choice choice>
     [[gnu::noinline]] void choose();
     template <Choice choice>
     inline std::uint64_t find(const Tile& tile, Cycle slot) const;
-    template <Choice choice>
+    template <Kind kind, Choice choice>
     inline int number_of(const Tile& tile, std::uint64_t rank) const;
     template <Choice choice>
     inline bool find_ready(std::size_t number, Cycle slot);
@@ -193,11 +196,8 @@ private:
     inline std::size_t least_ready(Cycle slot);
     template <Choice choice>
     inline std::size_t next_stream(Cycle slot, bool anew);
-    template <Outlet outlet, Choice choice>
+    template <Kind kind, Choice choice>
     inline bool issue_one(Tile& tile, int number, Cycle slot);
-    template <Outlet outlet>
-    inline bool has_room(const TaskRun& run, std::uint32_t tasks, int count, Cycle slot,
-                         std::uint16_t feature);
     TaskRun run_of(const Tile& tile, int number, const Waiting& segment) const;
     [[gnu::noinline]] std::uint32_t tasks_of(const Waiting& segment, std::uint32_t live);
     void drop(const Waiting& segment, std::uint32_t tasks);
@@ -214,6 +214,8 @@ private:
     void finish_tiles(BankStream& stream);
     void finish();
 
+    // A key names its domain, unless there is no room for that.
+    bool keys_name_domains() const { return key_mask_ != 0 || domain_count_ == 1; }
     std::uint32_t after(int number) const { return number + 1 < domain_count_ ? number + 1 : 0; }
 
     // Dates.
@@ -226,9 +228,11 @@ private:
     bool watch_inputs();
     [[gnu::noinline]] Cycle next_date();
 
-    Tile& tile_at(std::size_t stream, std::size_t turn) {
+    std::unique_ptr<Tile>& place_of(std::size_t stream, std::size_t turn) {
         return tiles_[stream * (tile_mask_ + 1) + (turn & tile_mask_)];
     }
+    /// Of a turn that has been entered.
+    Tile& tile_at(std::size_t stream, std::size_t turn) { return *place_of(stream, turn); }
 
     const sc_core::sc_object& bank_;
     const IssueBank::Config& config_;
@@ -253,11 +257,11 @@ private:
     bool by_task_, sees_pixels_; // see TerminationGrain
     bool fills_;                 // filling a Feature Buffer entry takes time
     bool counts_;                // packets are only counted
-    bool scoreboard_;
-    Slot width_cause_; // what limits the issue width
+    bool scoreboard_;            // else domains do not wait between updates
+    Slot width_cause_;           // what limits the issue width
 
     std::vector<Waiting> pool_;
-    std::vector<Values> values_; // of each of these, for Outlet::Packed alone
+    std::vector<Values> values_; // of each of these, for Kind::General alone
     Waiting* free_ = nullptr;
     std::size_t size_ = 0;     // segments that wait
     std::size_t issuable_ = 0; // of these, in tiles that may issue
@@ -265,8 +269,8 @@ private:
     // if there is room for that, below the order of arrival.
     std::uint32_t next_key_ = 0, key_step_ = 1;
     std::uint32_t key_mask_ = 0; // of the domain in a key; 0: keys are the order of arrival alone
-    std::vector<std::vector<Domain>> domains_; // of the tiles that have some
-    std::vector<Tile> tiles_; // stream by stream, by their turn modulo a power of two
+    // Stream by stream, by their turn modulo a power of two; null before the first tile.
+    std::vector<std::unique_ptr<Tile>> tiles_;
     std::size_t tile_mask_ = 0;
     // For Choice::Oldest alone: the lanes of all tiles, and the tile of each.
     DomainLanes all_lanes_{0};
@@ -285,7 +289,7 @@ private:
     const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see DrawnRow
     const RowMask* row_useful_ = nullptr;
     DrawnRow taken_;          // a copy, unless its ring keeps it
-    RowSpan taken_span_;      // for Outlet::Packed alone
+    RowSpan taken_span_;      // for Kind::General alone
     BankStream* next_stream_; // whose span is taken next
     Cycle spans_from_ = 0;    // for Intake::Drawn: no stream has a span before, if no tile changes
     bool features_full_ = false, no_room_ = false, width_limited_ = false;

@@ -10,23 +10,25 @@
 namespace degs {
 
 // Returns the number of segments issued.
-template <BankCycles::Outlet outlet, BankCycles::Intake intake, BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Intake intake, BankCycles::Choice choice>
 inline __attribute__((always_inline)) int BankCycles::issue() {
     no_room_ = false;
     if (issuable_ == 0) {
         width_limited_ = false;
         return 0;
     }
-    if (pipeline_.exists()) {
-        const int issued = issue_chosen<outlet, choice>();
-        // What has been chosen and waits for its cycle is limited like what exceeds the width.
-        width_limited_ = issued == issue_width_ || (!pipeline_.empty() && !no_room_);
-        return issued;
+    if constexpr (kind == Kind::General) {
+        if (pipeline_.exists()) {
+            const int issued = issue_chosen<kind, choice>();
+            // What has been chosen and waits for its cycle is limited like what exceeds the width.
+            width_limited_ = issued == issue_width_ || (!pipeline_.empty() && !no_room_);
+            return issued;
+        }
     }
     const bool in_order = intake == Intake::Single || (intake == Intake::Rings && single_stream_);
-    const int issued = choice == Choice::Oldest ? issue_oldest<outlet>()
-                       : in_order               ? issue_in_order<outlet, choice>()
-                                                : issue_from_all<outlet, choice>();
+    const int issued = choice == Choice::Oldest ? issue_oldest<kind>()
+                       : in_order               ? issue_in_order<kind, choice>()
+                                                : issue_from_all<kind, choice>();
     width_limited_ = issued == issue_width_;
     return issued;
 }
@@ -48,22 +50,20 @@ inline __attribute__((always_inline)) std::uint64_t BankCycles::find(const Tile&
 }
 
 // The domain that find() has found.
-template <BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) int BankCycles::number_of(const Tile& tile,
                                                                 std::uint64_t rank) const {
-    const auto key = static_cast<std::uint32_t>(rank);
-    if (choice == Choice::InTurn || scan_ == DomainScan::RoundRobin) {
-        return static_cast<int>(key);
+    const auto found = static_cast<std::uint32_t>(rank);
+    const bool in_turn = choice == Choice::InTurn || scan_ == DomainScan::RoundRobin;
+    if (kind == Kind::General && !in_turn && !keys_name_domains()) {
+        return tile.lanes.domain_of(found);
     }
-    if (key_mask_ == 0) {
-        return tile.lanes.domain_of(key);
-    }
-    return static_cast<int>(key & key_mask_);
+    return static_cast<int>(in_turn ? found : found & key_mask_);
 }
 
 // For a single stream: one segment after the other, each for the date at which its first task will
 // execute. Nothing overtakes what waits for room.
-template <BankCycles::Outlet outlet, BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) int BankCycles::issue_in_order() {
     Tile* const* const first = started_.data();
     Tile* const* const end = first + started_.size();
@@ -77,8 +77,8 @@ inline __attribute__((always_inline)) int BankCycles::issue_in_order() {
             ++place;
             continue;
         }
-        const int number = number_of<choice>(tile, found);
-        if (!issue_one<outlet, choice>(tile, number, slot)) {
+        const int number = number_of<kind, choice>(tile, found);
+        if (!issue_one<kind, choice>(tile, number, slot)) {
             break;
         }
         tile.cursor = after(number);
@@ -162,7 +162,7 @@ inline __attribute__((always_inline)) std::size_t BankCycles::next_stream(Cycle 
 }
 
 // For several streams, as issue_in_order().
-template <BankCycles::Outlet outlet, BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) int BankCycles::issue_from_all() {
     int issued = 0;
     for (Cycle date = 0; issued < issue_width_; ++issued) {
@@ -173,8 +173,8 @@ inline __attribute__((always_inline)) int BankCycles::issue_from_all() {
             break;
         }
         Stream& ready = own_[chosen];
-        const int number = number_of<choice>(*ready.tile, ready.rank);
-        if (!issue_one<outlet, choice>(*ready.tile, number, slot)) {
+        const int number = number_of<kind, choice>(*ready.tile, ready.rank);
+        if (!issue_one<kind, choice>(*ready.tile, number, slot)) {
             break;
         }
         ready.tile->cursor = after(number);
@@ -185,7 +185,7 @@ inline __attribute__((always_inline)) int BankCycles::issue_from_all() {
 }
 
 // For several streams each of which issues from one tile at most.
-template <BankCycles::Outlet outlet>
+template <BankCycles::Kind kind>
 inline __attribute__((always_inline)) int BankCycles::issue_oldest() {
     int issued = 0;
     for (; issued < issue_width_; ++issued) {
@@ -196,7 +196,7 @@ inline __attribute__((always_inline)) int BankCycles::issue_oldest() {
         }
         const auto lane = static_cast<int>(found & key_mask_);
         Tile& tile = *lane_tiles_[lane];
-        if (!issue_one<outlet, Choice::Oldest>(tile, lane - tile.first_lane, slot)) {
+        if (!issue_one<kind, Choice::Oldest>(tile, lane - tile.first_lane, slot)) {
             break;
         }
     }
@@ -205,13 +205,13 @@ inline __attribute__((always_inline)) int BankCycles::issue_oldest() {
 
 // Packs the oldest group of a bank with select_cycles. What finds no room keeps what was chosen
 // after it where it is.
-template <BankCycles::Outlet outlet, BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Choice choice>
 int BankCycles::issue_chosen() {
     int issued = 0;
     while (const PickPipeline::Pick* const pick = pipeline_.front()) {
         Tile& tile = tile_at(pick->stream, pick->turn);
         const int number = pick->domain;
-        if (!issue_one<outlet, choice>(tile, number, packet_.next_execution(now_))) {
+        if (!issue_one<kind, choice>(tile, number, packet_.next_execution(now_))) {
             break;
         }
         tile.domains[number].held = 0;
@@ -238,7 +238,7 @@ void BankCycles::choose() {
         }
         Stream& ready = own_[chosen];
         Tile& tile = *ready.tile;
-        const int number = number_of<choice>(tile, ready.rank);
+        const int number = number_of<Kind::General, choice>(tile, ready.rank);
         const BankStream& stream = streams_[chosen];
         std::size_t turn = stream.oldest;
         while (&tile_at(chosen, turn) != &tile) {
@@ -299,19 +299,8 @@ inline __attribute__((always_inline)) Cycle BankCycles::count_tasks(const Tile& 
     return packet_.pack(now_, tasks, count, sink);
 }
 
-// Room in the Packing Buffer for these tasks of a segment, which are `count`, at least one.
-template <BankCycles::Outlet outlet>
-inline __attribute__((always_inline)) bool BankCycles::has_room(const TaskRun& run,
-                                                                std::uint32_t tasks, int count,
-                                                                Cycle slot, std::uint16_t feature) {
-    if constexpr (outlet == Outlet::Counted) {
-        return packet_.fits(now_, slot, count) && packet_.can_write(now_, count);
-    }
-    return packing_.room(now_, run, count) && packing_.room_by_ports(now_, run, tasks, feature);
-}
-
 // False if the Packing Buffer has no room.
-template <BankCycles::Outlet outlet, BankCycles::Choice choice>
+template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) bool BankCycles::issue_one(Tile& tile, int number,
                                                                  Cycle slot) {
     Domain& domain = tile.domains[number];
@@ -321,23 +310,25 @@ inline __attribute__((always_inline)) bool BankCycles::issue_one(Tile& tile, int
         tasks = tasks_of(segment, domain.live);
     }
     const int count = __builtin_popcount(tasks);
-    TaskRun run;
-    if constexpr (outlet == Outlet::Packed) {
-        run = run_of(tile, number, segment);
-    }
-    if (count != 0 && !has_room<outlet>(run, tasks, count, slot, segment.feature)) {
-        no_room_ = true;
-        return false;
-    }
     Cycle last = now_;
     if (count != 0) {
-        if constexpr (outlet == Outlet::Counted) {
+        if (kind == Kind::Plain || counts_) {
+            if (!packet_.fits(now_, slot, count) || !packet_.can_write(now_, count)) {
+                no_room_ = true;
+                return false;
+            }
             last = count_tasks(tile, number, tasks, count, tasks & segment.ended);
         } else {
+            const TaskRun run = run_of(tile, number, segment);
+            if (!packing_.room(now_, run, count) ||
+                !packing_.room_by_ports(now_, run, tasks, segment.feature)) {
+                no_room_ = true;
+                return false;
+            }
             last = packing_.add(self_, run, tasks, segment.feature);
         }
         last += reuse_;
-        if (scoreboard_) {
+        if (kind == Kind::Plain || scoreboard_) {
             tile.lanes.set_date(number, last);
         }
     }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles and packets of a bank, and the date at which it has something to do again.
+// The tiles of a bank: how they enter, what ends in them, and how they end.
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 #include "modules/degs/scheduler/bank_cycles.hpp"
 
@@ -78,8 +76,8 @@ BankCycles::BankCycles(const Parts& parts)
     tiles_.resize(streams_.size() * places_of(parts));
     if (choice_ == Choice::Oldest) {
         all_lanes_ = DomainLanes(static_cast<int>(tiles_.size()) * domain_count_);
-        for (Tile& tile : tiles_) {
-            make_domains(tile);
+        for (std::unique_ptr<Tile>& place : tiles_) {
+            make_tile(place);
         }
     }
     const std::uint32_t mask =
@@ -92,10 +90,10 @@ BankCycles::BankCycles(const Parts& parts)
 }
 
 // A place for tiles in flight takes host memory once a tile comes to it.
-void BankCycles::make_domains(Tile& tile) {
-    domains_.emplace_back(domain_count_);
-    tile.domains = domains_.back().data();
-    for (Domain& domain : domains_.back()) {
+void BankCycles::make_tile(std::unique_ptr<Tile>& place) {
+    place = std::make_unique<Tile>(domain_count_);
+    Tile& tile = *place;
+    for (Domain& domain : tile.own) {
         domain.end = &domain.head;
     }
     if (choice_ != Choice::Oldest) {
@@ -109,10 +107,11 @@ void BankCycles::make_domains(Tile& tile) {
 
 // Called when the first item of a tile is taken. Pixels outside of the image count as ended.
 void BankCycles::enter_tile(BankStream& stream, TileNumber number) {
-    Tile& tile = tile_at(stream.index, stream.entering);
-    if (tile.domains == nullptr) {
-        make_domains(tile);
+    std::unique_ptr<Tile>& home = place_of(stream.index, stream.entering);
+    if (home == nullptr) {
+        make_tile(home);
     }
+    Tile& tile = *home;
     own_[stream.index].entering = &tile;
     const int first_context = config_.first_context + static_cast<int>(stream.index) * contexts_;
     tile.number = number;
@@ -136,10 +135,10 @@ void BankCycles::enter_tile(BankStream& stream, TileNumber number) {
 // The keys have come to their end: the segments that wait get the lowest ones, in their order.
 void BankCycles::renumber() {
     std::vector<Waiting*> waiting;
-    for (const std::vector<Domain>& domains : domains_) {
-        for (const Domain& domain : domains) {
-            for (Waiting* segment = domain.head; segment != nullptr; segment = segment->next) {
-                waiting.push_back(segment);
+    for (const std::unique_ptr<Tile>& tile : tiles_) {
+        for (std::size_t i = 0; tile != nullptr && i < tile->own.size(); ++i) {
+            for (Waiting* each = tile->own[i].head; each != nullptr; each = each->next) {
+                waiting.push_back(each);
             }
         }
     }
@@ -150,11 +149,11 @@ void BankCycles::renumber() {
         segment->key = next_key_ | (segment->key & (key_step_ - 1));
         next_key_ += key_step_;
     }
-    for (Tile& tile : tiles_) {
-        for (int i = 0; tile.domains != nullptr && i < domain_count_; ++i) {
-            const Domain& domain = tile.domains[i];
+    for (const std::unique_ptr<Tile>& tile : tiles_) {
+        for (std::size_t i = 0; tile != nullptr && i < tile->own.size(); ++i) {
+            const Domain& domain = tile->own[i];
             if (domain.head != nullptr && domain.held == 0) {
-                tile.lanes.set_key(i, domain.head->key);
+                tile->lanes.set_key(static_cast<int>(i), domain.head->key);
             }
         }
     }
@@ -166,7 +165,7 @@ void BankCycles::end_pixels(Domain& domain, std::uint32_t mask) const {
 }
 
 void BankCycles::end_pixels() {
-    while (has_terminations()) {
+    while (has_terminations<Kind::General>()) {
         end_pixels(terminations_.take(self_));
     }
 }
@@ -175,10 +174,10 @@ void BankCycles::end_pixels(const Termination& message) {
     const int context = message.context - config_.first_context;
     const BankStream& stream = streams_[context / contexts_];
     const std::size_t turn = stream.turn_of(context % contexts_, contexts_);
-    Tile& tile = tile_at(stream.index, turn);
-    if (turn >= stream.first_unstarted() || tile.number != message.tile) {
+    if (turn >= stream.first_unstarted() || tile_at(stream.index, turn).number != message.tile) {
         return; // the tile is over for this bank
     }
+    Tile& tile = tile_at(stream.index, turn);
     const int number = segmenter_.domain_of(message.row, message.column);
     Domain& domain = tile.domains[number];
     end_pixels(domain, message.mask);
@@ -259,6 +258,9 @@ std::uint32_t BankCycles::tasks_of(const Waiting& segment, std::uint32_t live) {
 
 // What the Packing Unit needs of a segment beside what the choice needs.
 void BankCycles::keep_values(const Waiting& segment) {
+    if (counts_) {
+        return;
+    }
     Values& values = values_[&segment - pool_.data()];
     values.splat = taken_span_.splat;
     if (slice_ != nullptr) {
@@ -364,101 +366,6 @@ void BankCycles::finish() {
         slice_->count_drawn(executed);
     }
     self_.finish();
-}
-
-Slot BankCycles::idle_cause() const {
-    if (size_ == 0) {
-        return Slot::Starved;
-    }
-    return issuable_ == 0   ? Slot::Blocked
-           : width_limited_ ? width_cause_
-           : no_room_       ? Slot::Blocked
-                            : Slot::Conflict;
-}
-
-// The cycles after the next execution date until waiting segments may go, if none went at `now`;
-// kNever if none waits.
-Cycle BankCycles::next_ready() const {
-    const Cycle slot = packet_.next_execution(now_);
-    if (choice_ == Choice::Oldest) {
-        return all_lanes_.until_next(slot);
-    }
-    Cycle earliest = kNever;
-    for (const Tile* const tile : started_) {
-        if (tile->waiting != 0) {
-            earliest =
-                std::min(earliest, choice_ == Choice::InTurn ? tile->lanes.until_next_in_turn(slot)
-                                                             : tile->lanes.until_next(slot));
-        }
-    }
-    return earliest;
-}
-
-// Watches the inputs from which the next span may come. True if one of them has a span by now.
-bool BankCycles::watch_inputs() {
-    bool waiting = false;
-    for (const BankStream& stream : streams_) {
-        for (const BankStream::Input& input : stream.inputs) {
-            FifoBase& ring =
-                input.spans != nullptr ? static_cast<FifoBase&>(*input.spans) : *input.ring;
-            if (ring.empty()) {
-                watched_.push_back(&ring);
-            } else if (takes(stream, input)) {
-                if (ring.head_date() > now_) {
-                    watched_.push_back(&ring);
-                } else {
-                    waiting = true;
-                }
-            }
-        }
-    }
-    return waiting;
-}
-
-// The next cycle in which anything can change, if there is nothing left to do at once: a domain
-// becomes ready, an open packet has to leave, a Feature Buffer entry is freed, or a message
-// arrives.
-Cycle BankCycles::next_date() {
-    const Cycle next = now_ + 1;
-    if (no_room_) {
-        return next;
-    }
-    Cycle limit = packet_.open_until();
-    if (Cycle ready = next_ready(); ready != kNever) {
-        ready -= pipeline_.exists() ? 1 : 0; // it chooses for the date of the next cycle
-        limit = std::min(limit, now_ + ready);
-    }
-    if (limit <= next) {
-        return next;
-    }
-    watched_.clear();
-    if (left_ <= 0 && watch_inputs()) {
-        // More than a cycle's worth, or no Feature Buffer entry.
-        const bool entries_only = features_full_ && single_stream_;
-        limit = std::min(limit, entries_only ? std::max(next, features_.next_free()) : next);
-        if (limit == next) {
-            return next;
-        }
-    }
-    if (slice_ == nullptr) {
-        watched_.push_back(&terminations_);
-    } else if (!terminations_.empty()) { // all that are due are there
-        limit = std::min(limit, std::max(next, terminations_.head_date()));
-    }
-    if (contexts_owed_) {
-        for (const BankStream& stream : streams_) {
-            if (owes_contexts(stream)) {
-                watched_.push_back(stream.contexts_freed);
-            }
-        }
-    }
-    limit = self_.next_arrival(watched_.data(), watched_.size(), next, std::max(next, limit));
-    if (limit >= kNever) {
-        throw std::logic_error(std::string(bank_.name()) +
-                               ": nothing left to wait for, but after " +
-                               std::to_string(tile_end_.tiles()) + " tiles there is another one");
-    }
-    return limit;
 }
 
 } // namespace degs

@@ -194,17 +194,6 @@ void PackingUnit::send_due(Process& bank, Slot cause) {
     }
 }
 
-void PackingUnit::close_cycles(Process& bank, Cycle until, Slot cause) {
-    if (packet_.leaves_slots(until)) {
-        if (part_ != nullptr) {
-            record_cycles(bank, packet_.next_execution(bank.local()), until + packet_.latency(),
-                          cause);
-        }
-        since_last_[cause] += packet_.left_slots(bank.local(), until);
-        idle_pending_ = true;
-    }
-}
-
 void PackingUnit::settle_idle() {
     idle_pending_ = false;
     idle_ += since_last_;

@@ -98,7 +98,7 @@ public:
     /// The cycles [bank.local(), until) are over for the bank; `until` may not lie beyond the date
     /// given by OpenPacket::open_until(). Accounts for those in which the array gets nothing, by
     /// `cause`.
-    void close_cycles(Process& bank, Cycle until, Slot cause);
+    inline void close_cycles(Process& bank, Cycle until, Slot cause);
     /// The packet that tasks go to next, with its dates.
     OpenPacket& packet() { return packet_; }
 
@@ -183,6 +183,17 @@ inline __attribute__((always_inline)) void PackingUnit::pass_packet(Cycle now, C
         tell_end(slot, true);
     } else {
         slice_->pass_packet(slot);
+    }
+}
+
+inline void PackingUnit::close_cycles(Process& bank, Cycle until, Slot cause) {
+    if (packet_.leaves_slots(until)) {
+        if (part_ != nullptr) {
+            record_cycles(bank, packet_.next_execution(bank.local()), until + packet_.latency(),
+                          cause);
+        }
+        since_last_[cause] += packet_.left_slots(bank.local(), until);
+        idle_pending_ = true;
     }
 }
 
