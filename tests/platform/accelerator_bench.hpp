@@ -263,10 +263,11 @@ inline GaussianCloud test_cloud(unsigned seed = 1, std::size_t count = 150, int 
     GaussianCloud cloud;
     cloud.sh_degree = degree;
     for (std::size_t i = 0; i < count; ++i) {
-        cloud.means.emplace_back(4 * unit(random) - 2, 3 * unit(random) - 1.5F,
-                                 3 + 4 * unit(random));
-        cloud.scales.emplace_back(0.02F + 0.3F * unit(random), 0.02F + 0.1F * unit(random), 0.05F);
-        cloud.rotations.emplace_back(unit(random), unit(random), unit(random), 0.1F);
+        // In braces, for arguments in parentheses have no order.
+        cloud.means.push_back(
+            {4 * unit(random) - 2, 3 * unit(random) - 1.5F, 3 + 4 * unit(random)});
+        cloud.scales.push_back({0.02F + 0.3F * unit(random), 0.02F + 0.1F * unit(random), 0.05F});
+        cloud.rotations.push_back({unit(random), unit(random), unit(random), 0.1F});
         cloud.opacities.push_back(0.05F + 0.95F * unit(random));
         for (int v = 0; v < 3 * cloud.sh_coefficients(); ++v) {
             cloud.sh.push_back(unit(random) - 0.3F);

@@ -184,12 +184,12 @@ std::vector<HardScene> make_colour_case(int width, int height) {
         builder.scene.cloud.sh_degree = 3;
         SyntheticRandom random(22);
         for (int i = 0; i < 40; ++i) {
-            builder.add({builder.middle_x() + random.uniform(-30, 30),
-                         builder.middle_y() + random.uniform(-30, 30), 9, 4, random.uniform(0, 3),
-                         0.4,
-                         glm::dvec3(random.uniform(-1, bright), random.uniform(-1, bright),
-                                    random.uniform(-0.2, 0.2) + 0.5 * bright),
-                         10.0 + i});
+            const double x = builder.middle_x() + random.uniform(-30, 30);
+            const double y = builder.middle_y() + random.uniform(-30, 30);
+            const double angle = random.uniform(0, 3);
+            const double blue = random.uniform(-0.2, 0.2) + 0.5 * bright;
+            const double green = random.uniform(-1, bright), red = random.uniform(-1, bright);
+            builder.add({x, y, 9, 4, angle, 0.4, {red, green, blue}, 10.0 + i});
             std::vector<float>& sh = builder.scene.cloud.sh;
             for (std::size_t k = sh.size() - 45; k < sh.size(); ++k) {
                 sh[k] = static_cast<float>(random.uniform(-0.1, 0.1) * bright);

@@ -53,14 +53,16 @@ private:
 
 void add_table(SpacetimeBuilder& builder) {
     SyntheticRandom& random = builder.random();
-    const glm::dvec3 at(random.uniform(-1.6, 1.6), 0.6, random.uniform(-0.9, 0.9));
+    const double z = random.uniform(-0.9, 0.9); // before x: arguments of a call have no order
+    const glm::dvec3 at(random.uniform(-1.6, 1.6), 0.6, z);
     const double board = at.x * 3 - std::floor(at.x * 3) < 0.9 ? 0.0 : -0.15;
     builder.add(at, {0, -1, 0}, 0.007, glm::dvec3(0.5, 0.36, 0.24) + board);
 }
 
 void add_wall(SpacetimeBuilder& builder) {
     SyntheticRandom& random = builder.random();
-    const glm::dvec3 at(random.uniform(-3, 3), random.uniform(-2.2, 1.6), 2.2);
+    const double y = random.uniform(-2.2, 1.6);
+    const glm::dvec3 at(random.uniform(-3, 3), y, 2.2);
     builder.add(at, {0, 0, -1}, 0.016, {0.62, 0.64, 0.6});
 }
 
@@ -103,8 +105,8 @@ void add_column(SpacetimeBuilder& builder) {
 /// A puff that rises, turns grey and is gone after a tenth of the scene.
 void add_steam(SpacetimeBuilder& builder) {
     SyntheticRandom& random = builder.random();
-    const glm::dvec3 at =
-        glm::dvec3(-0.68, 0.1 - random.uniform(0, 0.7), 0.07) + 0.22 * random.in_ball();
+    const glm::dvec3 puff = 0.22 * random.in_ball();
+    const glm::dvec3 at = glm::dvec3(-0.68, 0.1 - random.uniform(0, 0.7), 0.07) + puff;
     SpacetimeGaussian& g = builder.add(at, random.direction(), 0.011, {0.8, 0.8, 0.82});
     g.centre = static_cast<float>(random.uniform(-0.05, 1.05));
     g.log_duration = static_cast<float>(random.uniform(-3.2, -2.2));

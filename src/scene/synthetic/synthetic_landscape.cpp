@@ -98,9 +98,10 @@ void add_distance(SyntheticBuilder& builder) {
     d.y = -std::abs(d.y) * random.uniform(); // low more often than high
     const glm::dvec3 away = glm::normalize(d);
     const glm::dvec3 mean = spread(random, 40, 100) * away;
+    const glm::dvec3 grey = 0.05 * random.in_ball(); // in this order: arguments of a call have none
+    const glm::dvec3 normal = glm::normalize(-away + 0.5 * random.in_ball());
     const glm::dvec3 rgb(0.55, 0.65, 0.75 - 0.2 * away.y);
-    builder.add(plain_look(), mean, glm::normalize(-away + 0.5 * random.in_ball()),
-                rgb + 0.05 * random.in_ball(), 1.6 * growth(mean));
+    builder.add(plain_look(), mean, normal, rgb + grey, 1.6 * growth(mean));
 }
 
 } // namespace
