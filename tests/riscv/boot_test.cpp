@@ -7,6 +7,7 @@
 #include <elf.h>
 #include <regex>
 
+#include "tests/riscv/elf_file.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -36,24 +37,9 @@ void write_bytes(const std::string& path, const std::vector<unsigned char>& byte
 
 /// An executable for the core that has these instructions at address 0.
 std::vector<unsigned char> executable(const std::vector<std::uint32_t>& code) {
-    Elf32_Ehdr header{};
-    std::memcpy(header.e_ident, ELFMAG, SELFMAG);
-    header.e_ident[EI_CLASS] = ELFCLASS32;
-    header.e_ident[EI_DATA] = ELFDATA2LSB;
-    header.e_type = ET_EXEC;
-    header.e_machine = EM_RISCV;
-    header.e_phoff = sizeof header;
-    header.e_phentsize = sizeof(Elf32_Phdr);
-    header.e_phnum = 1;
-    Elf32_Phdr segment{};
-    segment.p_type = PT_LOAD;
-    segment.p_offset = sizeof header + sizeof segment;
-    segment.p_filesz = segment.p_memsz = static_cast<std::uint32_t>(4 * code.size());
-    std::vector<unsigned char> file(segment.p_offset + segment.p_filesz);
-    std::memcpy(file.data(), &header, sizeof header);
-    std::memcpy(file.data() + sizeof header, &segment, sizeof segment);
-    std::memcpy(file.data() + segment.p_offset, code.data(), segment.p_filesz);
-    return file;
+    std::vector<unsigned char> bytes(4 * code.size());
+    std::memcpy(bytes.data(), code.data(), bytes.size());
+    return rv32::test::elf_file(0, bytes, static_cast<std::uint32_t>(bytes.size()));
 }
 
 class SmallRunBoot : public testing::TestWithParam<const char*> {};

@@ -9,34 +9,16 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/riscv/elf_file.hpp"
+
 namespace rv32::test {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-/// A program of one segment: bytes 1 to 5 at 0x100, of which the first is executed.
+/// Bytes 1 to 5 at 0x100, of which the first is executed, and four zeros.
 Bytes program() {
-    Elf32_Ehdr header{};
-    std::memcpy(header.e_ident, ELFMAG, SELFMAG);
-    header.e_ident[EI_CLASS] = ELFCLASS32;
-    header.e_ident[EI_DATA] = ELFDATA2LSB;
-    header.e_type = ET_EXEC;
-    header.e_machine = EM_RISCV;
-    header.e_entry = 0x100;
-    header.e_phoff = sizeof header;
-    header.e_phentsize = sizeof(Elf32_Phdr);
-    header.e_phnum = 1;
-    Elf32_Phdr segment{};
-    segment.p_type = PT_LOAD;
-    segment.p_offset = sizeof header + sizeof segment;
-    segment.p_paddr = 0x100;
-    segment.p_filesz = 5;
-    segment.p_memsz = 9;
-    Bytes file(segment.p_offset);
-    std::memcpy(file.data(), &header, sizeof header);
-    std::memcpy(file.data() + sizeof header, &segment, sizeof segment);
-    file.insert(file.end(), {1, 2, 3, 4, 5});
-    return file;
+    return elf_file(0x100, {1, 2, 3, 4, 5}, 9);
 }
 
 Bytes changed_header(const std::function<void(Elf32_Ehdr&)>& change) {
