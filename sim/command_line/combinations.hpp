@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refuses what the rules of the options do not allow. Knows nothing of CLI11, so that studies,
-// whose keys stand for options, are refused by the same rules.
+// Refuses what the rules of the options do not allow. It does not include CLI11, because the keys
+// of a study stand for options, too, and obey the same rules.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the laws have to know of single accelerators.
+// The laws that random designs must obey ask here how the array of an accelerator works.
 #pragma once
 
 #include "modules/kit/accelerator/render_engine.hpp"
