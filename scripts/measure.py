@@ -13,6 +13,7 @@ docs/tables.json records what each table depended on. The program is DEGS_PROGRA
 import argparse
 import concurrent.futures
 import fnmatch
+import functools
 import sys
 import tempfile
 import time
@@ -41,24 +42,45 @@ class Progress:
                   end="\r" if sys.stderr.isatty() and self.done < self.all else "\n", file=sys.stderr, flush=True)
 
 
+class Open:
+    """A table while it is made: what it asked for, and the points of that which have no result yet."""
+
+    def __init__(self, table, small):
+        self.table, self.small, self.made = table, small, table.make()
+        self.before = []
+        self.ask(next(self.made))
+
+    def ask(self, asked):
+        """`points` has for each point of the declaration the one that is measured."""
+        self.asked = asked
+        self.points = {point: self.small(point) for point in flat(asked)}
+        self.missing = set(self.points.values())
+
+    def answer(self, results):
+        """Goes on with the results; True with the text in `self.text` when the table is made."""
+        found = {point: points.shown(point, results[each][0]) for point, each in self.points.items()}
+        self.before += self.points
+        try:
+            self.ask(self.made.send(answered(self.asked, found)))
+        except StopIteration as stop:
+            self.text = stop.value
+            return True
+        return False
+
+
 class Making:
     """Tables while they are made: each goes on when all points that it asked for have results."""
 
     def __init__(self, tables, store, jobs, quick):
         self.store, self.jobs, self.quick = store, jobs, quick
         self.results, self.failed, self.wrong, self.written = {}, {}, [], 0
-        self.open = {}
-        for name, table in tables.items():
-            made = table.make()
-            self.open[name] = (table, made, next(made), [])
-
-    def small(self, point):
-        return point.quick() if self.quick else point
+        small = functools.lru_cache(maxsize=None)(points.Point.quick if quick else lambda point: point)
+        self.open = {name: Open(table, small) for name, table in tables.items()}
 
     def wanted(self):
         """Points without a result, in the order of the tables."""
-        asked = [self.small(point) for _, _, asked, _ in self.open.values() for point in flat(asked)]
-        return [point for point in dict.fromkeys(asked) if point not in self.results and point not in self.failed]
+        asked = dict.fromkeys(point for table in self.open.values() for point in table.points.values())
+        return [point for point in asked if point not in self.results and point not in self.failed]
 
     def load(self, todo):
         """Takes what was measured before; returns what was not."""
@@ -95,30 +117,32 @@ class Making:
             try:
                 for future in concurrent.futures.as_completed(running):
                     progress.finished(running[future], self.take(running[future], future.result))
-                    self.advance()
+                    self.advance({running[future]})
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise
         for point in alone:
             jobs = 1 if point.runs else self.jobs
             progress.finished(point, jobs * self.take(point, lambda each=point, n=jobs: points.measured(each, n)))
-            self.advance()
+            self.advance({point})
 
-    def advance(self):
-        """Tables that have all that they asked for go on; finished ones are written."""
-        for name, (table, made, asked, before) in list(self.open.items()):
-            small = {point: self.small(point) for point in flat(asked)}
-            reasons = [self.failed[each] for each in small.values() if each in self.failed]
-            if reasons:
-                self.wrong.append(f"{name}: {reasons[0]}")
-                del self.open[name]
-            elif all(each in self.results for each in small.values()):
-                results = {point: points.shown(point, self.results[each][0]) for point, each in small.items()}
-                try:
-                    self.open[name] = (table, made, made.send(answered(asked, results)), [*before, *small])
-                except StopIteration as stop:
+    def advance(self, measured):
+        """Tables that waited for these points, or for none, go on; finished ones are written."""
+        for name, table in list(self.open.items()):
+            if table.missing.isdisjoint(measured) and table.missing:
+                continue
+            while name in self.open:
+                failed = [point for point in table.missing if point in self.failed]
+                if failed:
+                    self.wrong.append(f"{name}: {self.failed[failed[0]]}")
                     del self.open[name]
-                    self.finish(table, [*before, *small], stop.value)
+                    break
+                table.missing = {point for point in table.missing if point not in self.results}
+                if table.missing:
+                    break
+                if table.answer(self.results):
+                    del self.open[name]
+                    self.finish(table.table, table.before, table.text)
 
     def finish(self, table, asked, text):
         self.written += 1
@@ -131,9 +155,9 @@ class Making:
     def all(self):
         """Rounds, until no table asks for more."""
         while self.open:
-            self.advance()
-            left = self.load(self.wanted())
-            self.advance()
+            wanted = self.wanted()
+            left = self.load(wanted)
+            self.advance(set(wanted) - set(left))
             if left:
                 self.measure(left)
         return self.wrong

@@ -156,9 +156,15 @@ class Measure(unittest.TestCase):
         @self.tables.table("docs/page.md")
         def broken():
             yield self.points.run("degs-64", "synthetic:broken")
+
+        @self.tables.table("docs/page.md")
+        def broken_later():
+            yield self.points.run("degs-64", "synthetic:object", "", "span.count=4")
+            yield self.points.run("degs-64", "synthetic:broken")
         wrong = self.make(dict(self.tables.TABLES))
-        self.assertEqual(len(wrong), 1)
+        self.assertEqual(len(wrong), 2)
         self.assertIn("broken: this scene is broken", wrong[0].replace("degs: ", ""))
+        self.assertIn("broken-later: this scene is broken", wrong[1].replace("degs: ", ""))
         self.assertEqual((self.folder / "docs/file.csv").read_text(), "ratio\n2.0\n")
 
 
