@@ -17,6 +17,7 @@ DENIED = r"\b({names}|(energy|power|area)( and (power|area))?) (is|are) not mode
 COMMENT = re.compile(r"<!-- without (.+?): .+ -->")
 PATH = re.compile(r"(?<!test[ \n])`((?:src|sim|tests|configs|scripts|docs|examples|driver|cmake)/[\w./*-]*)`")
 LINK = re.compile(r"\[([^\]]*)\]\(([^)\s]*)\)")
+NO_SENTENCE = re.compile(r"Sources?:|```|[|#]|[-*] |\d+\. ")
 
 
 def paragraphs(page):
@@ -66,6 +67,15 @@ def mistakes_of_text(root, page, names):
                 yield place(text, found.start(), start), f"there is no {found[1]}"
 
 
+def mistakes_of_opening(page):
+    """A page of docs begins with a sentence, which says what its reader finds there."""
+    for number, line in enumerate(page.read_text().split("\n")[1:], 2):
+        if line.strip() and not line.startswith("<!--"):
+            if page.suffix == ".md" and page.parent.name == "docs" and NO_SENTENCE.match(line):
+                yield number, f"a page begins with a sentence that says what it answers: '{line[:40]}'"
+            return
+
+
 def mistakes_of_links(root, page, baselines):
     """A page that links the same file of several accelerators links that of all which have it."""
     linked = {}
@@ -106,7 +116,8 @@ def main():
     mistakes = [f"{page.relative_to(root)}:1: {reason}" for page, reason in mistakes_of_lists(root)]
     pages = [root / "README.md", *sorted((root / "docs").glob("*.md")), *sorted((root / "docs").glob("*.csv"))]
     for page in pages:
-        for line, reason in [*mistakes_of_text(root, page, names), *mistakes_of_links(root, page, baselines)]:
+        for line, reason in [*mistakes_of_text(root, page, names), *mistakes_of_opening(page),
+                             *mistakes_of_links(root, page, baselines)]:
             mistakes.append(f"{page.relative_to(root)}:{line}: {reason}")
     for mistake in mistakes:
         print(mistake)

@@ -148,6 +148,11 @@ finds_fact "a number that nobody counts again: 'all 20 designs'" 'all 20 designs
 finds_fact "it is modelled: 'GCC is not modelled'" 'a,GCC is not modelled' docs/published.csv
 finds_fact "it is modelled: 'Energy and power are not modelled'" 'Energy and power are not modelled.'
 finds_fact 'page.md:2: there is no src/modules/gone' 'See `src/modules/gone`.'
+finds_fact "page.md:2: a page begins with a sentence that says what it answers: 'Source: a file'" 'Source: a file'
+finds_fact "page.md:2: a page begins with a sentence" '| a | table |'
+finds_fact '' 'A sentence, and then a table.
+
+| a | table |'
 finds_fact '' 'The test `docs/figures` and `src/baselines/*/cost.cpp`.'
 finds_fact 'links cost.cpp of gbu, gcc, but not of gscore' \
     '[GBU](../src/baselines/gbu/cost.cpp), [GCC](../src/baselines/gcc/cost.cpp)'
