@@ -68,8 +68,8 @@ private:
     void note_tiles() {
         while (job_.recorder != nullptr && tiles_.size() < job_.tiles.size()) {
             const JobTile& tile = job_.tiles[tiles_.size()];
-            tiles_.push_back({tile.frame, tile.x, tile.y, tile.drawn_columns().size(),
-                              tile.drawn_rows().size(), tile.count, TileActivity()});
+            tiles_.push_back({tile.frame, tile.x, tile.y, tile.image_columns().size(),
+                              tile.image_rows().size(), tile.count, TileActivity()});
         }
     }
 

@@ -99,7 +99,7 @@ void TileEngine::start_tile(TileNumber number) {
     number_ = number;
     tile_ = &job_.tiles[number];
     take_context();
-    const PixelRange rows = tile_->drawn_rows();
+    const PixelRange rows = tile_->image_rows();
     live_rows_ = rows.size();
     started_ = self_.local();
     last_end_ = 0;
@@ -107,7 +107,7 @@ void TileEngine::start_tile(TileNumber number) {
     reported_ = false;
     for (int row = 0; row < job_.tile_size; ++row) {
         const bool inside = rows.holds(row);
-        rows_[row] = {inside ? kNever : 0, inside ? tile_->drawn_columns().size() : 0};
+        rows_[row] = {inside ? kNever : 0, inside ? tile_->image_columns().size() : 0};
     }
 }
 

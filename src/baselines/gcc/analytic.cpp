@@ -31,7 +31,7 @@ public:
     }
     PreparationCycles preparation(const FrameWorkload& frame) const override;
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
-    CoarseTile::Options drawing() const override {
+    CoarseTile::Options coarse_options() const override {
         return {config_.array.window, config_.array.window};
     }
     // Rows of windows; four rows of pixels tell which windows a splat meets.
@@ -161,7 +161,7 @@ TileCycles Clock::end(const CoarseTile& tile) {
     const double gaussian = config.traffic.list_entry_bytes + alone(records.shape_size()) +
                             alone(records.sh_size(frame_.sh_degree));
     TileCycles cycles;
-    cycles.slots = windows_ * tile.blocks_per_drawn() * config.array.pes();
+    cycles.slots = windows_ * tile.block_weight() * config.array.pes();
     cycles.fragments = tile.fragments();
     cycles.written = tile.pixels() * config.traffic.pixel_bytes;
     cycles.bytes = walked * gaussian + tile.pixels() * config.traffic.pixel_bytes;

@@ -121,7 +121,7 @@ void LockstepArray::start_tile(TileNumber number) {
     if (config_.subtile_skip == SubtileTest::Obb) {
         boxes_.include(tile_->frame);
     }
-    inside_ = grid_.holding(tile_->drawn_columns(), tile_->drawn_rows());
+    inside_ = grid_.holding(tile_->image_columns(), tile_->image_rows());
     live_subtiles_ = 0;
     for (int s = 0; s < grid_.count(); ++s) {
         const PixelBox box = pixels_of(s);
@@ -136,7 +136,7 @@ void LockstepArray::start_tile(TileNumber number) {
 PixelBox LockstepArray::pixels_of(int subtile) const {
     const int side = grid_.side();
     const int x = subtile % grid_.per_side() * side, y = subtile / grid_.per_side() * side;
-    const PixelRange columns = tile_->drawn_columns(), rows = tile_->drawn_rows();
+    const PixelRange columns = tile_->image_columns(), rows = tile_->image_rows();
     return PixelBox{x, y, x + side - 1, y + side - 1}.within(
         {columns.first, rows.first, columns.last, rows.last});
 }

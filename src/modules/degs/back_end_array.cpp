@@ -75,9 +75,9 @@ void DegsBackEnd::connect_slice(int bank) {
     slices_[b]->record(part);
     packing_[b]->out.bind(packets);
     slices_[b]->in.bind(packets);
-    if (drawing_ != nullptr) {
+    if (functional_ != nullptr) {
         packing_[b]->tell(*slices_[b], time_.timeline != nullptr);
-        slices_[b]->expect_drawn();
+        slices_[b]->expect_replay();
     }
     auto& terminations = wire(termination_rings_, "terminations", writeback);
     slices_[b]->terminated.bind(terminations);
@@ -117,8 +117,8 @@ void DegsBackEnd::build_pixel_buffers() {
             numbered("pixel_buffer", pixel_buffers_.size()).c_str(), config, config_.traffic, time_,
             job_, banks / parts, config_.contexts_per_stream(), share,
             FrameEnds::awaited(front_end_.frame_free, options_), options_.array_only));
-        if (drawing_ != nullptr) {
-            pixel_buffers_.back().read_from(*drawing_);
+        if (functional_ != nullptr) {
+            pixel_buffers_.back().read_from(*functional_);
         }
     }
 }

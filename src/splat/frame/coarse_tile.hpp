@@ -64,8 +64,8 @@ public:
     double entries() const { return static_cast<double>(end_ - begin_); }
     double walked() const { return static_cast<double>(entry_ - begin_); } ///< solved so far
     /// What a drawn row stands for, and what a block with drawn rows stands for.
-    double rows_per_drawn() const { return rows_per_drawn_; }
-    double blocks_per_drawn() const { return blocks_per_drawn_; }
+    double row_weight() const { return row_weight_; }
+    double block_weight() const { return block_weight_; }
     /// The rows that are drawn, and the blocks that they make up; top to bottom.
     const std::vector<int>& rows() const { return rows_; }
     const std::vector<int>& blocks() const { return blocks_; }
@@ -76,8 +76,8 @@ public:
     int first_row() const { return first_row_; }
     int last_row() const { return last_row_; }
     /// The drawn ones among them, as a range of rows().
-    int first_drawn() const { return rows_from_[first_row_]; }
-    int end_drawn() const { return rows_from_[std::max(last_row_ + 1, first_row_)]; }
+    int first_sampled() const { return rows_from_[first_row_]; }
+    int end_sampled() const { return rows_from_[std::max(last_row_ + 1, first_row_)]; }
     /// Drawn rows with a pixel of the span, top to bottom.
     CoarseSpans spans() const { return {spans_.data(), spans_.data() + span_count_}; }
     /// The span of any row of the image, px from the upper left corner of the tile; empty without a
@@ -98,7 +98,7 @@ public:
     std::uint64_t cell_changes() const { return cell_changes_; }
 
     /// Fragments so far, scaled to all pixels.
-    double fragments() const { return static_cast<double>(blended_) * kApart * rows_per_drawn_; }
+    double fragments() const { return static_cast<double>(blended_) * kApart * row_weight_; }
 
 private:
     static constexpr int kApart = 4; ///< px between sampled columns
@@ -142,7 +142,7 @@ private:
     TileGrid grid_;
     int tile_ = 0, x_ = 0, y_ = 0;
     PixelRange columns_, pixel_rows_;
-    double rows_per_drawn_ = 1, blocks_per_drawn_ = 1;
+    double row_weight_ = 1, block_weight_ = 1;
     std::vector<int> blocks_;
     std::vector<int> rows_;                 ///< drawn ones, rising
     std::vector<float> row_values_;         ///< the same, and behind them whatever

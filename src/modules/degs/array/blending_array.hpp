@@ -65,16 +65,16 @@ public:
                RenderJob& job, int index, int slices, int segment_length);
 
     const Stats& stats() const { return stats_; }
-    // For tasks that TileDrawing has drawn: the Packing Unit tells their dates, which do not fall,
-    // in place of packets.
+    // For tasks that FunctionalModel has drawn: the Packing Unit tells their dates, which do not
+    // fall, in place of packets.
     /// The tasks `mask` of a segment execute in the cycles `first` to `last`.
     inline void execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle last);
-    /// Counts tasks by class; see DrawnTasks.
-    inline void count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful);
+    /// Counts tasks by class; see TaskOutcome.
+    inline void count_replayed(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful);
     /// Counts tasks by class that execute() has not counted.
-    void count_drawn(const SlotAccount& tasks) { stats_.slots += tasks; }
+    void count_replayed(const SlotAccount& tasks) { stats_.slots += tasks; }
     /// The pixels `ended` of these tasks end at `date`.
-    void end_drawn(const TaskRun& run, std::uint32_t ended, Cycle date);
+    void end_replayed(const TaskRun& run, std::uint32_t ended, Cycle date);
     /// All tasks of the cycle `date` have been told.
     inline void pass_packet(Cycle date);
     /// The end of a tile comes at `date`, or as soon as what came before has been executed;
@@ -85,14 +85,14 @@ public:
     void record(SlotPart* part) { part_ = part; }
     /// Packets tell dates alone, and of their tasks those that end a pixel; before the simulation
     /// starts.
-    void expect_drawn() { drawn_ = true; }
+    void expect_replay() { replays_ = true; }
     /// Packets taken, ended pixels and regions told, tiles handed over.
     void log_to(EventLog& log) override { log_ = &log; }
 
 private:
     /// What to do with the tasks of packets: blend them, record them as well, or neither, since
     /// they were drawn and recorded before.
-    enum class Tasks { Blended, Recorded, Drawn };
+    enum class Tasks { Blended, Recorded, Replayed };
     /// Runs the slice in place of itself unless its tasks are blended alone, so that pump() need
     /// not ask.
     class RecordedPump : public Pumped {
@@ -168,7 +168,7 @@ private:
     std::optional<EarlyBlender> early_; // without scoreboard
     TileEnd tiles_;
     SlotPart* part_ = nullptr;
-    bool drawn_ = false;
+    bool replays_ = false;
     RecordedPump recorded_{*this};
     Stats stats_;
     EventLog* log_ = nullptr;
@@ -180,11 +180,11 @@ ArraySlice::execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle l
     Recent& recent = context.recent[run.domain];
     check_reuse(recent, mask, first);
     recent.date = last;
-    count_drawn(mask, run.drawn.inside, run.drawn.useful);
+    count_replayed(mask, run.outcome.inside, run.outcome.useful);
 }
 
 inline __attribute__((always_inline)) void
-ArraySlice::count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful) {
+ArraySlice::count_replayed(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful) {
     const auto count = [](std::uint32_t bits) {
         return static_cast<std::uint64_t>(__builtin_popcount(bits));
     };

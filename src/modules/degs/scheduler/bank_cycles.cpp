@@ -20,7 +20,7 @@ void BankCycles::run_from() {
     if (spans_ != nullptr) {
         run_by<kind, Intake::Single>();
     } else if (streams_.front().inputs.front().spans != nullptr) {
-        run_by<kind, Intake::Drawn>();
+        run_by<kind, Intake::Replayed>();
     } else {
         run_by<kind, Intake::Rings>();
     }
@@ -121,7 +121,7 @@ inline __attribute__((always_inline)) Cycle BankCycles::next_span_from(const Ban
     if (!takes(stream, input)) {
         return kNever;
     }
-    const DrawnSpans& spans = *input.spans;
+    const SpanReplay& spans = *input.spans;
     return spans.empty() ? spans.quiet_until() : spans.head_date();
 }
 
@@ -131,7 +131,7 @@ inline __attribute__((always_inline)) bool BankCycles::open_span() {
     if constexpr (intake == Intake::Single) {
         return take_from<kind, intake>(streams_.front());
     }
-    if (intake == Intake::Drawn && now_ < spans_from_) {
+    if (intake == Intake::Replayed && now_ < spans_from_) {
         return false;
     }
     BankStream* const first = next_stream_;
@@ -142,7 +142,7 @@ inline __attribute__((always_inline)) bool BankCycles::open_span() {
         if (take_from<kind, intake>(stream)) {
             return true;
         }
-        if constexpr (intake == Intake::Drawn) {
+        if constexpr (intake == Intake::Replayed) {
             from = std::min(from, next_span_from(stream));
         }
     } while (next_stream_ != first);
@@ -151,7 +151,7 @@ inline __attribute__((always_inline)) bool BankCycles::open_span() {
 }
 
 template <BankCycles::Intake intake>
-inline __attribute__((always_inline)) DrawnSpans&
+inline __attribute__((always_inline)) SpanReplay&
 BankCycles::spans_of(const BankStream::Input& input) const {
     return intake == Intake::Single ? *spans_ : *input.spans;
 }
@@ -207,7 +207,7 @@ inline __attribute__((always_inline)) void BankCycles::start(const BankStream& s
 
 // What becomes of the tasks of the span that starts.
 template <class Row>
-inline __attribute__((always_inline)) void BankCycles::start_drawn(const Row& row) {
+inline __attribute__((always_inline)) void BankCycles::start_replay(const Row& row) {
     row_inside_ = &row.inside;
     row_useful_ = &row.useful;
     row_ended_ = &row.ended;
@@ -226,8 +226,8 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
         TileNumber number = kNoTile;
         bool row = false;
         if constexpr (intake != Intake::Rings) {
-            DrawnSpans& spans = spans_of<intake>(*source);
-            const DrawnSpans::Row& span = spans.front();
+            SpanReplay& spans = spans_of<intake>(*source);
+            const SpanReplay::Row& span = spans.front();
             number = span.tile;
             row = !span.end();
             if (row && !admits(stream, number, span.splat)) {
@@ -238,7 +238,7 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
             }
             if (row) {
                 start(stream, span.row, span.x0, span.length);
-                start_drawn(span);
+                start_replay(span);
                 if constexpr (kind == Kind::General) {
                     taken_span_.splat = span.splat;
                 }
@@ -257,8 +257,8 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
             if (row) {
                 start(stream, item.span->y, item.span->x0, item.span->length);
                 if (kind == Kind::Plain || slice_ != nullptr) {
-                    taken_ = item.drawn;
-                    start_drawn(taken_);
+                    taken_ = item.outcome;
+                    start_replay(taken_);
                 }
                 if constexpr (kind == Kind::General) {
                     taken_span_ = *item.span;

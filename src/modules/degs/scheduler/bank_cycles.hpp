@@ -56,9 +56,9 @@ private:
     };
     /// Where spans come from. The loop over cycles asks for nothing else.
     enum class Intake {
-        Single, ///< DrawnSpans of the only tile stream
-        Drawn,  ///< DrawnSpans, one per stream
-        Rings   ///< rings of the crossbar
+        Single,   ///< SpanReplay of the only tile stream
+        Replayed, ///< SpanReplay, one per stream
+        Rings     ///< rings of the crossbar
     };
     /// What the loop over cycles asks about.
     enum class Kind {
@@ -77,7 +77,7 @@ private:
     static constexpr std::uint64_t kNothing = ~std::uint64_t{0}; // no domain is ready
 
     struct Waiting {
-        std::uint32_t mask, inside, ended; // see DrawnTasks
+        std::uint32_t mask, inside, ended; // see TaskOutcome
         std::uint32_t key;                 // see next_key_
         Waiting* next;
         std::uint16_t feature;
@@ -128,13 +128,13 @@ private:
     template <Kind kind, Intake intake>
     inline bool take_from(BankStream& stream);
     template <Intake intake>
-    inline DrawnSpans& spans_of(const BankStream::Input& input) const;
+    inline SpanReplay& spans_of(const BankStream::Input& input) const;
     template <Intake intake>
     inline BankStream::Input* earliest_input(BankStream& stream);
     inline bool admits(const BankStream& stream, TileNumber number, std::uint32_t splat);
     inline void start(const BankStream& stream, int row, int x0, int length);
     template <class Row>
-    inline void start_drawn(const Row& row);
+    inline void start_replay(const Row& row);
     [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number);
     template <Kind kind, Choice choice>
     inline bool cut_segment();
@@ -207,7 +207,8 @@ private:
                              std::uint32_t ended);
     [[gnu::noinline]] Cycle pack_ends(const Tile& tile, int number, std::uint32_t tasks,
                                       std::uint32_t ended);
-    [[gnu::noinline]] void end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date);
+    [[gnu::noinline]] void end_replayed(const Tile& tile, int number, std::uint32_t tasks,
+                                        Cycle date);
     template <Choice choice>
     inline void pop(Tile& tile, int number);
     [[gnu::noinline]] void finish_tiles();
@@ -240,7 +241,7 @@ private:
     PackingUnit& packing_;
     ArraySlice* slice_; // nullptr: tasks are blended when they execute
     std::vector<BankStream>& streams_;
-    DrawnSpans* spans_; // of the only stream; null if there are several, or rings
+    SpanReplay* spans_; // of the only stream; null if there are several, or rings
     DatedFifo<Termination>& terminations_;
     const Segmenter& segmenter_;
     FeatureBuffer& features_;
@@ -286,12 +287,12 @@ private:
     Tile* cut_tile_ = nullptr;
     int cut_ = 0;           // domain of the span's next segment
     std::uint64_t low_ = 1; // bit of the segment's first pixel
-    const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see DrawnRow
+    const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see RowOutcome
     const RowMask* row_useful_ = nullptr;
-    DrawnRow taken_;          // a copy, unless its ring keeps it
+    RowOutcome taken_;        // a copy, unless its ring keeps it
     RowSpan taken_span_;      // for Kind::General alone
     BankStream* next_stream_; // whose span is taken next
-    Cycle spans_from_ = 0;    // for Intake::Drawn: no stream has a span before, if no tile changes
+    Cycle spans_from_ = 0; // for Intake::Replayed: no stream has a span before, if no tile changes
     bool features_full_ = false, no_room_ = false, width_limited_ = false;
     OpenPacket& packet_;
     std::size_t closing_ = 0;    // tiles of which nothing more will be taken

@@ -272,7 +272,7 @@ public:
         if constexpr (ends) {
             const std::uint32_t ended = take_lowest(left, count, room) & ended_;
             if (ended != 0) {
-                bank_.end_drawn(tile_, number_, ended, slot);
+                bank_.end_replayed(tile_, number_, ended, slot);
             }
         }
         return std::min(count, room);

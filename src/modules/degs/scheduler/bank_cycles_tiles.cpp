@@ -118,17 +118,17 @@ void BankCycles::enter_tile(BankStream& stream, TileNumber number) {
     tile.context = context_in_turn(stream.entering, contexts_, first_context);
     tile.cursor = 0;
     tile.lanes.set_dates(now_);
-    const PixelRange drawn = job_.tiles[number].drawn_columns();
+    const PixelRange columns = job_.tiles[number].image_columns();
     Domain* domain = tile.domains;
     for (const Segmenter::Domain& place : segmenter_.domains()) {
         domain->ended = 0;
         domain->live = kAllPixels;
-        end_pixels(*domain++, ~bits_of(drawn.relative_to(place.column), segment_length_));
+        end_pixels(*domain++, ~bits_of(columns.relative_to(place.column), segment_length_));
     }
     stream.entered = true;
     list_started();
     if (log_ != nullptr) {
-        log_->enter(now_, number, tile.context, drawn);
+        log_->enter(now_, number, tile.context, columns);
     }
 }
 
@@ -286,12 +286,12 @@ TaskRun BankCycles::run_of(const Tile& tile, int number, const Waiting& segment)
     run.task.column = inside_tile(place.column);
     run.task.offset = values.offset;
     run.task.context = tile.context;
-    run.drawn = {segment.inside, values.useful, segment.ended};
+    run.outcome = {segment.inside, values.useful, segment.ended};
     return run;
 }
 
 // Pixels of a domain end with these tasks of a packet.
-void BankCycles::end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date) {
+void BankCycles::end_replayed(const Tile& tile, int number, std::uint32_t tasks, Cycle date) {
     const Segmenter::Domain& place = segmenter_.domains()[number];
     TaskRun run;
     run.tile = tile.number;
@@ -299,7 +299,7 @@ void BankCycles::end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cy
     run.task.row = inside_tile(place.row);
     run.task.column = inside_tile(place.column);
     run.task.context = tile.context;
-    slice_->end_drawn(run, tasks, date);
+    slice_->end_replayed(run, tasks, date);
 }
 
 void BankCycles::finish_tiles() {
@@ -363,7 +363,7 @@ void BankCycles::finish() {
         executed[Slot::Useful] = useful_;
         executed[Slot::Boundary] = stats_.tasks_issued - inside_;
         executed[Slot::Terminated] = inside_ - useful_;
-        slice_->count_drawn(executed);
+        slice_->count_replayed(executed);
     }
     self_.finish();
 }

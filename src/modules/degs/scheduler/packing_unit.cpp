@@ -31,7 +31,7 @@ public:
         if (unit_.ports_) {
             unit_.ports_->clear();
         }
-        if (unit_.records_drawn()) {
+        if (unit_.records_replay()) {
             unit_.part_->settle(run_.tile);
         }
     }
@@ -55,18 +55,18 @@ public:
 
 private:
     void put(std::uint32_t part, Cycle slot) {
-        if (!unit_.draws()) {
+        if (!unit_.replays()) {
             unit_.put(run_, mask_, part);
             return;
         }
         if (unit_.part_ != nullptr) {
             unit_.record_tasks(run_, part);
         }
-        const std::uint32_t ended = part & run_.drawn.ended;
+        const std::uint32_t ended = part & run_.outcome.ended;
         if (ended != 0 && unit_.packets_ && unit_.part_ != nullptr) {
             unit_.put(run_, mask_, part); // the slice ends the pixels when it reads the packet
         } else if (ended != 0) {
-            unit_.slice_->end_drawn(run_, ended, slot);
+            unit_.slice_->end_replayed(run_, ended, slot);
         }
     }
 
@@ -78,7 +78,7 @@ private:
 Cycle PackingUnit::add_picky(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
     PickySink sink(*this, bank, run, mask, entry);
     const Cycle last = packet_.pack(bank.local(), mask, __builtin_popcount(mask), sink);
-    if (draws()) {
+    if (replays()) {
         slice_->execute(run, mask, sink.first(), last);
     }
     return last;
@@ -94,9 +94,9 @@ void PackingUnit::record_tasks(const TaskRun& run, std::uint32_t part) {
     if (!packet_.open() || run.tile != latest_tile_) { // else this cycle is known to be the tile's
         part_->work(run.tile, packet_.slot(), packet_.slot() + 1);
     }
-    add(Slot::Useful, part & run.drawn.useful);
-    add(Slot::Boundary, part & ~run.drawn.inside);
-    add(Slot::Terminated, part & run.drawn.inside & ~run.drawn.useful);
+    add(Slot::Useful, part & run.outcome.useful);
+    add(Slot::Boundary, part & ~run.outcome.inside);
+    add(Slot::Terminated, part & run.outcome.inside & ~run.outcome.useful);
     latest_tile_ = run.tile;
 }
 
@@ -178,7 +178,7 @@ void PackingUnit::tell_end(Cycle slot, bool packet) {
 
 void PackingUnit::send(Process& bank, Slot cause) {
     idle_[cause] += packet_.room();
-    if (records_drawn()) {
+    if (records_replay()) {
         record_packet(cause);
     }
     if (packets_) {

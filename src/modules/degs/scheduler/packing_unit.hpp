@@ -63,7 +63,7 @@ public:
         slice_ = &slice;
         packets_ = timeline;
     }
-    bool draws() const { return slice_ != nullptr; }
+    bool replays() const { return slice_ != nullptr; }
     ArraySlice* slice() const { return slice_; }
     const Config& config() const { return config_; }
     /// The packets told without the ring.
@@ -105,7 +105,7 @@ public:
     // For a bank that counts the tasks in packets by itself, in place of room() and add().
     /// True if packets need only be counted: their tasks have been drawn, nobody records them, and
     /// nothing but the width limits a packet.
-    bool counts() const { return draws() && !packets_ && !picky() && config_.reorganisation; }
+    bool counts() const { return replays() && !packets_ && !picky() && config_.reorganisation; }
     /// The open packet leaves the bank at `now`.
     inline void send_counted(Cycle now);
     /// Another packet comes, so that the slots before it that stayed empty count.
@@ -128,9 +128,9 @@ private:
         ring_ = &out.ring();
         passed_.hold(ring_->depth());
     }
-    bool records_drawn() const { return draws() && part_ != nullptr; }
+    bool records_replay() const { return replays() && part_ != nullptr; }
     // Tasks have to be looked at before they go into a packet.
-    bool picky() const { return ports_.has_value() || records_drawn(); }
+    bool picky() const { return ports_.has_value() || records_replay(); }
     // Without reorganisation: `run` may go to the packet that is open, if any.
     bool joins(const TaskRun& run) const;
     [[gnu::noinline]] bool fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry);
@@ -224,7 +224,7 @@ inline __attribute__((always_inline)) void PackingUnit::send_packet(Process& ban
     ends_tile_ = false;
     stats_.packets++;
     stats_.tasks += packet.tasks;
-    if (part_ != nullptr && !draws()) {
+    if (part_ != nullptr && !replays()) {
         record_packet(packet, cause);
     }
     ring_->put_staged(bank);
@@ -273,7 +273,7 @@ inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, cons
     if (!config_.reorganisation) {
         separate(bank, run);
     }
-    if (draws() || ports_) {
+    if (replays() || ports_) {
         return add_picky(bank, run, mask, entry);
     }
     RingSink sink(*this, bank, run, mask);

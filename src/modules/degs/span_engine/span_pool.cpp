@@ -58,21 +58,21 @@ void SpanPool::start_of_simulation() {
     }
 }
 
-const std::vector<std::unique_ptr<DrawnSpans>>& SpanPool::hand_over(Process& bank) {
+const std::vector<std::unique_ptr<SpanReplay>>& SpanPool::hand_over(Process& bank) {
     const bool one_by_one = share_.units == 1 && share_.lanes == 1 && config_.rows_per_cycle == 1 &&
                             config_.cycles_per_row == 1;
     // Nobody but the bank and the Slicing Units may wait for what SpanTurns does.
     if (!one_by_one || out.size() != streams_.size() || config_.row_ports.limited() ||
         config_.reports_rows || !can_hand_over()) {
-        return drawn_spans_;
+        return replays_;
     }
-    std::vector<DrawnSpans*> streams;
+    std::vector<SpanReplay*> streams;
     for (std::size_t stream = 0; stream < streams_.size(); ++stream) {
         SpanStage::hand_over(stream, self_, bank);
-        streams.push_back(drawn_spans_.back().get());
+        streams.push_back(replays_.back().get());
     }
     turns_ = std::make_unique<SpanTurns>(self_, streams, tiles_);
-    return drawn_spans_;
+    return replays_;
 }
 
 void SpanPool::run() {

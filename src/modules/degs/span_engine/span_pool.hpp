@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "modules/degs/span_engine/drawn_spans.hpp"
+#include "modules/degs/span_engine/span_replay.hpp"
 #include "modules/degs/span_engine/span_stage.hpp"
 #include "modules/degs/span_engine/span_turns.hpp"
 
@@ -31,7 +31,7 @@ public:
              const RenderJob& job, const Share& share);
 
     /// If one unit takes a row per cycle from one lane per stream and reaches one bank alone.
-    const std::vector<std::unique_ptr<DrawnSpans>>& hand_over(Process& bank) override;
+    const std::vector<std::unique_ptr<SpanReplay>>& hand_over(Process& bank) override;
 
 private:
     struct Stream {

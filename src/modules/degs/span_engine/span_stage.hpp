@@ -17,7 +17,7 @@
 
 namespace degs {
 
-class DrawnSpans;
+class SpanReplay;
 
 /// Which Span Unit solves a row: the one whose number is the row's modulo their number, or any that
 /// is free.
@@ -39,7 +39,7 @@ public:
         int crossbar_width = 0;    ///< Span Vectors that a bank takes per cycle; 0: all it can cut
         SramPorts row_ports;       ///< of a lane of the Span Buffer, whose section has the key
         bool reports_rows = false; ///< to Parameter Release
-        bool drawn = false;        ///< rows come solved, see TileDrawing
+        bool replays = false;      ///< rows come solved, see FunctionalModel
         bool granted = false;      ///< tiles come one by one, see TileEnd
         void describe(ConfigVisitor& visitor);
         /// Modules of the stage; each has units_per_module() units.
@@ -73,11 +73,11 @@ public:
     /// What `bank`, which reads nobody else's rows, reads in place of the crossbar's rings, one per
     /// stream, and the Slicing Units write in place of the lanes; empty unless rows come drawn and
     /// nobody looks on. Before the simulation starts.
-    virtual const std::vector<std::unique_ptr<DrawnSpans>>& hand_over(Process& bank) = 0;
+    virtual const std::vector<std::unique_ptr<SpanReplay>>& hand_over(Process& bank) = 0;
     /// What hand_over() has returned.
-    const std::vector<std::unique_ptr<DrawnSpans>>& drawn_spans() const { return drawn_spans_; }
+    const std::vector<std::unique_ptr<SpanReplay>>& replays() const { return replays_; }
     /// What of it carries the rows of `lane`; nullptr if nothing does.
-    DrawnSpans* drawn_spans(const DatedFifo<RowItem>& lane) const;
+    SpanReplay* replay_of(const DatedFifo<RowItem>& lane) const;
     /// Rows taken from the lanes, Span Vectors and ends of tiles sent.
     void log_to(EventLog& log) override { log_ = &log; }
 
@@ -109,7 +109,7 @@ protected:
     TileEnd tiles_;
     Stats stats_;
     EventLog* log_ = nullptr;
-    std::vector<std::unique_ptr<DrawnSpans>> drawn_spans_; // see hand_over(): by lane
+    std::vector<std::unique_ptr<SpanReplay>> replays_; // see hand_over(): by lane
 };
 
 // Inlined in the hot loops. The pixels of the span are made in place, because a copy of what was
@@ -117,19 +117,19 @@ protected:
 inline __attribute__((always_inline)) bool SpanStage::solve(const RowItem& row, SpanItem& result) {
     stats_.rows++;
     result.tile = row.tile;
-    if (config_.drawn) {
-        if (row.drawn.length == 0) {
+    if (config_.replays) {
+        if (row.outcome.length == 0) {
             stats_.empty_rows++;
             return false;
         }
         RowSpan& span = result.span.emplace();
         span.splat = row.splat;
         span.y = row.row;
-        span.x0 = inside_tile(row.drawn.x0);
-        span.length = inside_tile(row.drawn.length);
-        result.drawn = row.drawn;
+        span.x0 = inside_tile(row.outcome.x0);
+        span.length = inside_tile(row.outcome.length);
+        result.outcome = row.outcome;
         stats_.spans++;
-        stats_.tasks += row.drawn.length;
+        stats_.tasks += row.outcome.length;
         return true;
     }
     const JobTile& tile = job_.tiles[row.tile];
@@ -137,7 +137,7 @@ inline __attribute__((always_inline)) bool SpanStage::solve(const RowItem& row, 
     auto& span = *new (&result.span) std::optional<RowSpan>(
         config_.parsing ? job_.path->solve_row(row.splat, y, tile.x, x_end, tile.y)
                         : row_of_box(*job_.path, row.splat, y, tile.x, x_end, tile.y));
-    if (!span || !cut(*span, tile.drawn_columns())) {
+    if (!span || !cut(*span, tile.image_columns())) {
         stats_.empty_rows++;
         return false;
     }

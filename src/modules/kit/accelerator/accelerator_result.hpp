@@ -133,8 +133,8 @@ struct AcceleratorResult {
     TimelineRecord timeline;                         ///< if the run was asked for one
     std::vector<TileRecord> tile_records;            ///< if asked for, in the order of the job
     double elaborate_s = 0, sim_s = 0;               ///< host; sim_s is sc_start() alone
-    double drawing_s = 0;                            ///< host; see TileDrawing
-    double waited_s = 0;                             ///< host; see TileDrawing
+    double functional_s = 0;                         ///< host; see FunctionalModel
+    double waited_s = 0;                             ///< host; see FunctionalModel
     std::uint64_t activations = 0;                   ///< host; see Timebase
     std::chrono::steady_clock::time_point sim_start; ///< host; of sc_start()
 

@@ -72,7 +72,7 @@ public:
     virtual PreparationCycles preparation(const FrameWorkload& frame) const = 0;
     virtual std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const = 0;
     /// What the clock asks of a tile.
-    virtual CoarseTile::Options drawing() const = 0;
+    virtual CoarseTile::Options coarse_options() const = 0;
     /// How rows may be left out of a tile: of blocks of `height` rows one in up to `most_apart` is
     /// drawn, and of that every `step`-th row. One in up to `most_fitted` is enough where a fit to
     /// simulated tiles takes out the bias; 0: no fewer than for an estimate.

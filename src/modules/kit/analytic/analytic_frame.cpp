@@ -142,8 +142,8 @@ double background_pixels(const FrameWorkload& frame) {
     double pixels = 0;
     for (int tile = 0; tile < frame.tiles(); ++tile) {
         if (frame.tile_begin[tile] == frame.tile_begin[tile + 1]) {
-            const PixelBox drawn = grid.drawn_of(tile);
-            pixels += 1.0 * drawn.width() * drawn.height();
+            const PixelBox inside = grid.image_pixels_of(tile);
+            pixels += 1.0 * inside.width() * inside.height();
         }
     }
     return pixels;
@@ -163,7 +163,7 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     std::vector<TileCycles> cycles(chosen.size());
     const std::size_t chains = std::min(kChains, chosen.size());
     parallel_blocks(chains, [&](std::size_t chain, std::size_t) {
-        CoarseTile tile(frame, model.drawing());
+        CoarseTile tile(frame, model.coarse_options());
         const std::unique_ptr<TileClock> clock = model.clock(frame);
         for (std::size_t c = chain; c < chosen.size(); c += chains) {
             // Which blocks are drawn goes round with the tiles.

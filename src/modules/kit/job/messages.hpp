@@ -78,7 +78,7 @@ struct RowItem {
     std::uint32_t splat = 0; ///< DataPath index
     std::int16_t row = 0;    ///< inside the tile
     bool end = false;        ///< end of the tile instead of a row
-    DrawnRow drawn;          ///< if TileDrawing draws
+    RowOutcome outcome;      ///< if FunctionalModel draws
     template <class Visitor>
     void visit(Visitor& visitor) const {
         visitor.number("tile", tile);
@@ -92,7 +92,7 @@ struct RowItem {
 struct SpanItem {
     std::optional<RowSpan> span; ///< none: the end of the tile
     TileNumber tile = 0;
-    DrawnRow drawn; ///< if TileDrawing draws: the span then has no g0 and d0
+    RowOutcome outcome; ///< if FunctionalModel draws: the span then has no g0 and d0
     template <class Visitor>
     void visit(Visitor& visitor) const {
         visitor.number("tile", tile);
@@ -104,8 +104,8 @@ struct SpanItem {
     }
 };
 
-/// What becomes of the tasks of a segment, by bits of its mask; see DrawnRow.
-struct DrawnTasks {
+/// What becomes of the tasks of a segment, by bits of its mask; see RowOutcome.
+struct TaskOutcome {
     std::uint32_t inside = 0, useful = 0, ended = 0;
 };
 
@@ -116,7 +116,7 @@ struct TaskRun {
     std::uint32_t part = 0; ///< tasks in this packet
     TileNumber tile = 0;
     std::uint32_t domain = 0; ///< conflict domain inside the bank's part of the tile
-    DrawnTasks drawn;         ///< if TileDrawing draws, in place of g0, d0 and offset
+    TaskOutcome outcome;      ///< if FunctionalModel draws, in place of g0, d0 and offset
     template <class Visitor>
     void visit(Visitor& visitor) const {
         visitor.number("tile", tile);

@@ -11,20 +11,20 @@ namespace degs {
 class SpanTurns;
 
 /// A lane of the Span Buffer, its Span Unit and its ring of the crossbar, where rows come drawn
-/// (TileDrawing) and the unit reaches one bank: every row of a frame passes here. What is in the
-/// rows was drawn before, so that they stay where the Slicing Unit has put them until the bank has
-/// cut them; when the lane has room, when the unit takes a row, when the crossbar has room for it,
-/// and when the bank may read it, is worked out here. Dates and counts are those of SpanUnit and
-/// DatedFifo, which do the same for all other designs and in strict mode. A unit that serves
+/// (FunctionalModel) and the unit reaches one bank: every row of a frame passes here. What is in
+/// the rows was drawn before, so that they stay where the Slicing Unit has put them until the bank
+/// has cut them; when the lane has room, when the unit takes a row, when the crossbar has room for
+/// it, and when the bank may read it, is worked out here. Dates and counts are those of SpanUnit
+/// and DatedFifo, which do the same for all other designs and in strict mode. A unit that serves
 /// several streams takes their rows in turn (SpanTurns).
 ///
 /// It is itself the ring that the bank reads; lane() is the one that the Slicing Unit writes.
-class DrawnSpans final : public FifoBase, public Pumped {
+class SpanReplay final : public FifoBase, public Pumped {
 public:
     static constexpr std::int16_t kEnd = -1;
     /// A row inside a tile, or the end of the tile.
     struct alignas(64) Row {
-        RowMask inside, useful, ended; ///< see DrawnRow
+        RowMask inside, useful, ended; ///< see RowOutcome
         TileNumber tile = 0;
         std::uint32_t splat = 0;         ///< DataPath index
         std::int16_t x0 = 0, length = 0; ///< pixels; kEnd: the end of the tile
@@ -33,7 +33,7 @@ public:
     };
 
     /// What `unit` does with `rows` for `bank`. Both rings stay empty.
-    DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows, DatedFifo<SpanItem>& ring,
+    SpanReplay(Process& unit, Process& bank, DatedFifo<RowItem>& rows, DatedFifo<SpanItem>& ring,
                const SpanStage::Config& config, SpanStage::Stats& stats, TileEnd& tiles);
 
     /// Tells of every row that the unit has taken; before the simulation starts.
@@ -54,7 +54,7 @@ public:
     }
     /// A row of a splat enters the lane, or the end of a tile; after reserve().
     inline void put(Process& writer, TileNumber tile, std::uint32_t splat, int y,
-                    const DrawnRow& drawn);
+                    const RowOutcome& outcome);
     void put_end(Process& writer, TileNumber tile);
 
     // For the bank.
@@ -175,30 +175,30 @@ private:
     std::size_t held_ = 0;
 };
 
-inline __attribute__((always_inline)) DrawnSpans::Row& DrawnSpans::next_row() {
+inline __attribute__((always_inline)) SpanReplay::Row& SpanReplay::next_row() {
     if (put_ - kept_from_ == rows_.size()) {
         add_rows();
     }
     return rows_[put_ & rows_mask_];
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::put(Process& writer, TileNumber tile,
+inline __attribute__((always_inline)) void SpanReplay::put(Process& writer, TileNumber tile,
                                                            std::uint32_t splat, int y,
-                                                           const DrawnRow& drawn) {
+                                                           const RowOutcome& outcome) {
     Row& row = next_row();
-    row.inside = drawn.inside;
-    row.useful = drawn.useful;
-    row.ended = drawn.ended;
+    row.inside = outcome.inside;
+    row.useful = outcome.useful;
+    row.ended = outcome.ended;
     row.tile = tile;
     row.splat = splat;
-    row.x0 = inside_tile(drawn.x0);
-    row.length = inside_tile(drawn.length);
+    row.x0 = inside_tile(outcome.x0);
+    row.length = inside_tile(outcome.length);
     row.row = inside_tile(y);
     enter(writer.local());
 }
 
 // The unit takes it at once, unless it holds another one, and the lane may have more.
-inline __attribute__((always_inline)) void DrawnSpans::enter(Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::enter(Cycle now) {
     const std::size_t number = put_++;
     if (!holding_) {
         solve(number, now);
@@ -214,7 +214,7 @@ inline __attribute__((always_inline)) void DrawnSpans::enter(Cycle now) {
     }
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::count_taken(std::size_t number,
+inline __attribute__((always_inline)) void SpanReplay::count_taken(std::size_t number,
                                                                    Cycle written, Cycle now) {
     lane_counts_.occupied_cycles += now - written;
     // The mark rises by one where as many items as before it were still inside.
@@ -226,7 +226,7 @@ inline __attribute__((always_inline)) void DrawnSpans::count_taken(std::size_t n
 }
 
 // The unit takes a row.
-inline __attribute__((always_inline)) void DrawnSpans::solve(std::size_t number, Cycle written) {
+inline __attribute__((always_inline)) void SpanReplay::solve(std::size_t number, Cycle written) {
     const Cycle free = unit_.local();
     const Cycle now = std::max(free, written + lane_.forward_latency());
     lane_counts_.empty_cycles += now - free;
@@ -247,7 +247,7 @@ inline __attribute__((always_inline)) void DrawnSpans::solve(std::size_t number,
 }
 
 // The crossbar is full.
-inline __attribute__((always_inline)) void DrawnSpans::hold(std::size_t number, Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::hold(std::size_t number, Cycle now) {
     unit_.advance_to(now);
     holding_ = true;
     held_ = number;
@@ -255,7 +255,7 @@ inline __attribute__((always_inline)) void DrawnSpans::hold(std::size_t number, 
 }
 
 // A span enters the crossbar, which has room.
-inline __attribute__((always_inline)) void DrawnSpans::deliver(std::size_t number, Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::deliver(std::size_t number, Cycle now) {
     const Cycle written = std::max(now, cells_[(made_ - depth_) & mask_].read + release_latency_);
     counts_.full_cycles += written - now;
     Cell& cell = cells_[made_++ & mask_];
@@ -269,7 +269,7 @@ inline __attribute__((always_inline)) void DrawnSpans::deliver(std::size_t numbe
     }
 }
 
-inline __attribute__((always_inline)) std::size_t DrawnSpans::leave(Cycle now) {
+inline __attribute__((always_inline)) std::size_t SpanReplay::leave(Cycle now) {
     const std::size_t number = put_ - lane_.items();
     const bool was_full = lane_.full();
     count_taken(number, entered_[number & rows_mask_], now);
@@ -284,7 +284,7 @@ inline __attribute__((always_inline)) std::size_t DrawnSpans::leave(Cycle now) {
     return number;
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::take_row(Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::take_row(Cycle now) {
     const std::size_t number = leave(now);
     stats_.rows++;
     stats_.busy += cycles_per_row_;
@@ -298,7 +298,7 @@ inline __attribute__((always_inline)) void DrawnSpans::take_row(Cycle now) {
     send(number, now);
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::send(std::size_t number, Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::send(std::size_t number, Cycle now) {
     Cell& cell = cells_[made_++ & mask_];
     cell.date = now + forward_latency_;
     cell.row = number;
@@ -308,7 +308,7 @@ inline __attribute__((always_inline)) void DrawnSpans::send(std::size_t number, 
     }
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::drop(Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::drop(Cycle now) {
     Cell& cell = cells_[taken_ & mask_];
     const Cycle written = cell.date - forward_latency_;
     counts_.occupied_cycles += now - written;

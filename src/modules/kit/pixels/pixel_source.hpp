@@ -7,12 +7,12 @@
 namespace degs {
 
 /// Pixels of tiles that are drawn elsewhere than in the contexts of the data path.
-class DrawnPixels {
+class PixelSource {
 public:
-    DrawnPixels() = default;
-    DrawnPixels(const DrawnPixels&) = delete;
-    DrawnPixels& operator=(const DrawnPixels&) = delete;
-    virtual ~DrawnPixels() = default;
+    PixelSource() = default;
+    PixelSource(const PixelSource&) = delete;
+    PixelSource& operator=(const PixelSource&) = delete;
+    virtual ~PixelSource() = default;
 
     /// The first `count` pixels of a row whose splats have all been blended, or whose tile has
     /// ended.

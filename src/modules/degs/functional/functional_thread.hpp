@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "modules/degs/drawing/drawn_sheet.hpp"
-#include "modules/degs/drawing/tile_canvases.hpp"
-#include "modules/degs/drawing/tile_drawing.hpp"
+#include "modules/degs/functional/functional_model.hpp"
+#include "modules/degs/functional/row_batch.hpp"
+#include "modules/degs/functional/tile_contexts.hpp"
 
 namespace degs {
 
@@ -23,40 +23,39 @@ namespace degs {
 /// it hears of that. If the simulation asks for rows beyond that, the thread draws them on demand.
 /// The results wait in memory, of which the thread takes a bounded amount.
 ///
-/// The thread owns the pixels of the data path. It publishes sheets, which hold the rows of some
+/// The thread owns the pixels of the data path. It publishes batches, which hold the rows of some
 /// neighbouring splats of a list, and the pixels of tiles that will not change; the simulation
 /// reads nothing else. Whenever it draws, it holds RenderJob::changes.
-class DrawingThread final : public TileDrawing {
+class FunctionalThread final : public FunctionalModel {
 public:
-    DrawingThread(RenderJob& job, const DrawingOptions& options);
-    ~DrawingThread() override;
+    FunctionalThread(RenderJob& job, const FunctionalOptions& options);
+    ~FunctionalThread() override;
 
     PixelRange rows(TileNumber number, std::uint32_t place) override;
     void take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
-              DrawnRow* drawn) override;
+              RowOutcome* outcomes) override;
     void read_row(TileNumber number, int row, int count, PixelValue* pixels) override;
     void clear_row(TileNumber number, int row) override;
     double waited_s() const override { return waited_s_; }
 
 private:
-    using Sheet = DrawnSheet;
     static constexpr std::size_t kMostBytes = std::size_t{4} << 20U; // that wait
     static constexpr std::size_t kMostTiles = 64;                    // that wait
     static constexpr std::uint64_t kNoDemand = ~std::uint64_t{0};
-    static constexpr std::uint32_t kWholeTile = ~std::uint32_t{0}; // in place of a sheet
+    static constexpr std::uint32_t kWholeTile = ~std::uint32_t{0}; // in place of a batch
 
     /// A tile that is drawn.
     struct Tile {
         JobTile job;
-        int canvas = 0;
+        int context = 0;
         std::int64_t live = 0;               // pixels that have not ended
-        int sheets_after_end = 0;            // with the one in which the tile ended
-        std::vector<Sheet*> sheets;          // of the whole list; nullptr once they are taken
-        std::atomic<std::uint32_t> ready{0}; // sheets that are published
+        int batches_after_end = 0;           // with the one in which the tile ended
+        std::vector<RowBatch*> batches;      // of the whole list; nullptr once they are taken
+        std::atomic<std::uint32_t> ready{0}; // batches that are published
         std::vector<PixelValue> pixels;      // row by row; there if final
         std::atomic<bool> final{false};      // no pixel changes any more
         int cleared = 0;                     // rows, by the simulation
-        bool listed() const { return ready.load(std::memory_order_relaxed) == sheets.size(); }
+        bool listed() const { return ready.load(std::memory_order_relaxed) == batches.size(); }
         std::size_t pixel_bytes() const { return pixels.size() * sizeof(PixelValue); }
     };
 
@@ -68,11 +67,11 @@ private:
         bool passed = false;              // has been closed; for the thread alone
     };
 
-    /// The sheet of a tile that the simulation has asked for last, unless all of it has been taken.
+    /// The batch of a tile that the simulation has asked for last, unless all of it has been taken.
     struct Asked {
         TileNumber tile = kNoTile;
         std::uint32_t index = 0;
-        Sheet* sheet = nullptr;
+        RowBatch* batch = nullptr;
     };
     static constexpr std::size_t kAsked = 64; // tiles that are sliced at once, most often
 
@@ -81,51 +80,51 @@ private:
     std::size_t slots_end() const { return first_slot_ + slots_.size(); }
     Slot& slot(TileNumber number) { return slots_[number - first_slot_]; }
     Tile* tile(TileNumber number) { return slot(number).open.load(); }
-    Sheet& sheet(TileNumber number, std::uint32_t place);
+    RowBatch& batch(TileNumber number, std::uint32_t place);
     template <class Ready>
-    void await(TileNumber number, std::uint32_t sheet, const Ready& ready);
+    void await(TileNumber number, std::uint32_t batch, const Ready& ready);
     void wake_if_useful();
 
     // The thread's side.
-    enum class Round { Drew, Idle, Stops };
+    enum class Round { Worked, Idle, Stops };
     void run();
-    Round draw();
+    Round work();
     bool receive();
     bool serve_demand();
-    bool draw_ahead();
+    bool run_ahead();
     void rest();
     Tile& open(TileNumber number);
     void close(TileNumber number);
-    void draw_sheet(Tile& tile);
+    void rasterise_batch(Tile& tile);
     void fix_pixels(Tile& tile);
-    Sheet& blank_sheet();
-    void recycle(Sheet& sheet);
+    RowBatch& empty_batch();
+    void recycle(RowBatch& batch);
     template <class Value>
     void publish(std::atomic<Value>& place, Value value);
 
     RenderJob& job_;
-    DrawingOptions options_;
+    FunctionalOptions options_;
     std::deque<Slot> slots_; // by tile; changed with RenderJob::changes alone
     std::size_t first_slot_ = 0;
     std::array<Asked, kAsked> asked_; // by tile modulo their number
     double waited_s_ = 0;
 
-    TileCanvases canvases_;
+    TileContexts contexts_;
     std::vector<std::unique_ptr<Tile>> all_tiles_;
-    std::vector<std::unique_ptr<Sheet>> all_sheets_;
+    std::vector<std::unique_ptr<RowBatch>> all_batches_;
     std::vector<Tile*> free_tiles_;
-    std::vector<Sheet*> free_sheets_;
+    std::vector<RowBatch*> free_batches_;
     TileNumber next_ = 0; // that is drawn ahead
     std::size_t bytes_ = 0, open_tiles_ = 0;
     std::uint64_t met_ = kNoDemand; // the latest demand that was found met
-    std::vector<Sheet*> received_sheets_;
+    std::vector<RowBatch*> received_batches_;
     std::vector<TileNumber> received_tiles_;
 
-    std::atomic<std::uint64_t> demand_{kNoDemand}; // tile and sheet for which the simulation waits
+    std::atomic<std::uint64_t> demand_{kNoDemand}; // tile and batch for which the simulation waits
     std::atomic<bool> simulation_sleeps_{false}, thread_sleeps_{false};
     std::mutex mutex_; // for both to sleep, and of all that follows
     std::condition_variable published_, wanted_;
-    std::vector<Sheet*> taken_sheets_;
+    std::vector<RowBatch*> taken_batches_;
     std::vector<TileNumber> cleared_tiles_;
     bool joined_ = false;
     std::exception_ptr failure_;

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "base/shared_bytes.hpp"
-#include "modules/degs/drawing/sliced_rows.hpp"
+#include "modules/degs/functional/sliced_rows.hpp"
 #include "modules/kit/job/messages.hpp"
 #include "modules/kit/job/render_job.hpp"
-#include "modules/kit/pixels/drawn_pixels.hpp"
+#include "modules/kit/pixels/pixel_source.hpp"
 
 namespace degs {
 
@@ -21,31 +21,31 @@ namespace degs {
 /// the same.
 ///
 /// A splat is named by its place in the list of its tile, from 0.
-class TileDrawing : public DrawnPixels {
+class FunctionalModel : public PixelSource {
 public:
     /// A hint that the splats of a chunk will be asked for next.
     virtual void expect(const SplatChunk& chunk) { (void)chunk; }
     /// The rows inside the tile that are sliced of a splat; see sliced_rows().
     virtual PixelRange rows(TileNumber number, std::uint32_t place) = 0;
-    /// What becomes of the rows first, first + step, ... last of these, in `drawn`. Each of the
+    /// What becomes of the rows first, first + step, ... last of these, in `outcomes`. Each of the
     /// modules that share a tile asks once for each splat, in the order of the list, although its
     /// range may be empty. It may end early, when all pixels of the tile have ended.
     virtual void take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
-                      DrawnRow* drawn) = 0;
+                      RowOutcome* outcomes) = 0;
     /// Host seconds that the simulation has slept until something was drawn.
     virtual double waited_s() const { return 0; }
     /// Pixels updated in the rows that were taken.
     std::uint64_t fragments() const { return fragments_; }
 
 protected:
-    void count(const DrawnRow& row) { fragments_ += row.useful.count(); }
+    void count(const RowOutcome& row) { fragments_ += row.useful.count(); }
 
 private:
     std::uint64_t fragments_ = 0;
 };
 
 /// How the tiles of a job are drawn.
-struct DrawingOptions {
+struct FunctionalOptions {
     bool tests = false; ///< the PEs test their pixels, see TileRows
     SlicedRows rows = SlicedRows::Splat;
     int modules = 1; ///< that share a tile and take rows
@@ -60,7 +60,7 @@ struct KeptTiles {
 /// Takes and keeps tiles that others draw, too, if there are others. Else draws on a thread of its
 /// own, ahead of the simulation, if the host may use another processor; otherwise each splat when
 /// it is taken. Results are the same. `job` must outlive it.
-std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options,
-                                               const KeptTiles& kept = {});
+std::unique_ptr<FunctionalModel>
+make_functional_model(RenderJob& job, const FunctionalOptions& options, const KeptTiles& kept = {});
 
 } // namespace degs

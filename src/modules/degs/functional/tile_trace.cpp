@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/degs/drawing/drawn_tile_code.hpp"
+#include "modules/degs/functional/tile_trace.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 namespace degs {
 namespace {
 
-// The head: sheets, bytes of the rows, and whether pixels are in single precision. Ends of sheets,
-// pixels and rows follow.
+// The head: batches, bytes of the rows, and whether pixels are in single precision. Ends of
+// batches, pixels and rows follow.
 using Head = std::array<std::uint32_t, 3>;
 
 // Says which masks of a row are stored, because they do not follow from the span.
@@ -64,7 +64,7 @@ RowMask span_mask(int x0, int length) {
     return mask_of(ones(length), ones(length - RowMask::kHalf), x0);
 }
 
-void put_row(std::string& to, const DrawnRow& row) {
+void put_row(std::string& to, const RowOutcome& row) {
     to.push_back(static_cast<char>(row.x0));
     to.push_back(static_cast<char>(row.length));
     if (row.length == 0) {
@@ -86,8 +86,8 @@ void put_row(std::string& to, const DrawnRow& row) {
     }
 }
 
-void take_row(const char*& from, DrawnRow& row) {
-    row = DrawnRow();
+void take_row(const char*& from, RowOutcome& row) {
+    row = RowOutcome();
     row.x0 = static_cast<unsigned char>(*from++);
     row.length = static_cast<unsigned char>(*from++);
     if (row.length == 0) {
@@ -145,10 +145,10 @@ bool are_floats(const std::vector<PixelValue>& pixels) {
 
 } // namespace
 
-void DrawnTileWriter::add(const DrawnSheet& sheet, std::uint32_t splats) {
-    const DrawnRow* row = sheet.drawn.data();
+void TileTraceWriter::add(const RowBatch& batch, std::uint32_t splats) {
+    const RowOutcome* row = batch.outcomes.data();
     for (std::uint32_t i = 0; i < splats; ++i) {
-        const PixelRange& rows = sheet.splats[i].rows;
+        const PixelRange& rows = batch.splats[i].rows;
         const auto count = static_cast<unsigned char>(rows.empty() ? 0 : rows.size());
         rows_.push_back(static_cast<char>(count));
         if (count != 0) {
@@ -161,7 +161,7 @@ void DrawnTileWriter::add(const DrawnSheet& sheet, std::uint32_t splats) {
     ends_.push_back(static_cast<std::uint32_t>(rows_.size()));
 }
 
-std::string DrawnTileWriter::bytes(const std::vector<PixelValue>& pixels) const {
+std::string TileTraceWriter::bytes(const std::vector<PixelValue>& pixels) const {
     const bool single = are_floats(pixels);
     std::string to;
     put(to, Head{static_cast<std::uint32_t>(ends_.size()),
@@ -173,21 +173,21 @@ std::string DrawnTileWriter::bytes(const std::vector<PixelValue>& pixels) const 
     return (to += rows_).append(sizeof(RowMask), '\0'); // for take_mask()
 }
 
-DrawnTileReader::DrawnTileReader(std::string_view bytes) {
+TileTraceReader::TileTraceReader(std::string_view bytes) {
     if (bytes.data() == nullptr) {
         return;
     }
     Head head;
     std::memcpy(&head, bytes.data(), sizeof head);
-    sheets_ = head[0];
+    batches_ = head[0];
     single_ = head[2] != 0;
     ends_ = bytes.data() + sizeof head;
-    pixels_ = ends_ + sheets_ * sizeof(std::uint32_t);
+    pixels_ = ends_ + batches_ * sizeof(std::uint32_t);
     rows_ =
         pixels_ + head[1] * (single_ ? sizeof(StoredPixel<float>) : sizeof(StoredPixel<double>));
 }
 
-void DrawnTileReader::read(std::uint32_t index, std::uint32_t splats, DrawnSheet& sheet) const {
+void TileTraceReader::read(std::uint32_t index, std::uint32_t splats, RowBatch& batch) const {
     std::uint32_t begin = 0;
     if (index != 0) {
         std::memcpy(&begin, ends_ + (index - 1) * sizeof begin, sizeof begin);
@@ -195,20 +195,20 @@ void DrawnTileReader::read(std::uint32_t index, std::uint32_t splats, DrawnSheet
     const char* from = rows_ + begin;
     for (std::uint32_t i = 0; i < splats; ++i) {
         const int count = static_cast<unsigned char>(*from++);
-        const std::size_t before = sheet.drawn.size();
-        sheet.splats[i] = {PixelRange{}, before};
+        const std::size_t before = batch.outcomes.size();
+        batch.splats[i] = {PixelRange{}, before};
         if (count != 0) {
             const int first = static_cast<unsigned char>(*from++);
-            sheet.splats[i].rows = {first, first + count - 1};
-            sheet.drawn.resize(before + count);
+            batch.splats[i].rows = {first, first + count - 1};
+            batch.outcomes.resize(before + count);
             for (int k = 0; k < count; ++k) {
-                take_row(from, sheet.drawn[before + k]);
+                take_row(from, batch.outcomes[before + k]);
             }
         }
     }
 }
 
-void DrawnTileReader::read_pixels(std::size_t first, std::size_t count, PixelValue* pixels) const {
+void TileTraceReader::read_pixels(std::size_t first, std::size_t count, PixelValue* pixels) const {
     single_ ? take_pixels<float>(pixels_, first, count, pixels)
             : take_pixels<double>(pixels_, first, count, pixels);
 }
