@@ -50,7 +50,7 @@ public:
     std::vector<TileRecord>& tiles() { return tiles_; }
 
 private:
-    // The kernel would make an error of its own of an exception.
+    // Keeps an exception for end(), because the kernel would turn it into an error of its own.
     FramePointer take() {
         note_tiles();
         FramePointer frame;

@@ -16,7 +16,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// counts.
 struct Times {
     double sim_s = kNever, render_s = kNever;
-    double all_s = kNever; ///< of the simulation and of the thread that draws
+    double all_s = kNever; ///< of the simulation and of the functional model's thread
     double fragments = 0;  ///< of the design
     double accesses = 0;   ///< of 64 B to the channels of an LPDDR5 memory
 

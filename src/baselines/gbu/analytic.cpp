@@ -82,7 +82,7 @@ private:
     const Config::Engines& engines_;
     std::vector<RowPe> pes_;
     double generated_ = 0, slots_ = 0, busy_ = 0;
-    double entries_ = 0; ///< of the queues, in the drawn rows
+    double entries_ = 0; ///< of the queues of the sampled rows
 };
 
 std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload&) const {

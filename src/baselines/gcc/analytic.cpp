@@ -117,7 +117,7 @@ WindowMask Clock::visited(const CoarseTile& tile, int row, const CoarseSpan* spa
             visited |= windows_of({spans->row, spans->last + 1, spans->last + 1});
         }
     }
-    for (const int tip : {tile.first_row(), tile.last_row()}) { // between drawn rows
+    for (const int tip : {tile.first_row(), tile.last_row()}) { // may lie between sampled rows
         if (tip / side_ == row) {
             visited |= windows_of(tile.span_of(tip));
         }

@@ -84,7 +84,7 @@ bool VectorUnit::blends_next() {
     return false;
 }
 
-/// False if nothing follows and nothing is on its way.
+/// Takes a chunk of splats. False if no chunk follows and no product is on its way.
 bool VectorUnit::take_chunk() {
     if (input_over_) {
         return false;

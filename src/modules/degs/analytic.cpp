@@ -28,7 +28,7 @@ public:
                 config_.pipeline.span_delta};
     }
     // Banks and Span Units own every n-th row, so rows are left out bank by bank. Those that have
-    // more to do than others hold these up, which only shows if enough of them are drawn.
+    // more to do than others hold these up, which only shows if enough of them are sampled.
     Blocks blocks() const override {
         constexpr int kLeastBanks = 8;
         const int banks = std::gcd(config_.scheduler.banks, config_.span.count);
@@ -166,7 +166,7 @@ void DegsClock::begin_lanes(double row_weight) {
     }
     const bool pool = config_.spans_cross();
     const int lanes = pool ? 1 : config_.span.count;
-    // A pool has only as many as it takes for the rows that are drawn.
+    // Only a sample of the rows goes through a pool, so that it gets only its share of the units.
     const long weight = pool ? std::lround(row_weight) : 1;
     const int rows = config_.span_buffer.bytes / config_.span_buffer.row_bytes / lanes;
     const int units = config_.span.count * config_.span.rows_per_cycle / lanes;
@@ -298,7 +298,7 @@ void DegsClock::post_lists(const CoarseTile& tile) {
     }
 }
 
-// Returns when the next splat is there.
+// Returns the date at which the next splat is in the Gaussian Buffer.
 double DegsClock::supply() {
     if (left_of_chunk_ == 0) {
         arrived_ = fetchers_[tiles_ % fetchers_.size()].next(memory_, model_.front().chunk_bytes());

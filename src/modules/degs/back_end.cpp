@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the Splat Fetchers to the crossbar.
+// Builds the part of a back end from the Splat Fetchers to the crossbar.
 #include "modules/degs/back_end.hpp"
 
 #include "modules/degs/span_engine/span_pool.hpp"

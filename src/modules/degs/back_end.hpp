@@ -67,7 +67,7 @@ public:
 
     /// Builds the fetchers. The back end of this index keeps its tiles in its own contexts.
     DegsBackEnd(const Shared& shared, DegsBlocks& blocks, int index);
-    /// Builds everything behind them.
+    /// Builds everything behind the fetchers.
     void build();
 
 private:

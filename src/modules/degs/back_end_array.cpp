@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the crossbar to the Pixel Buffer.
+// Builds the part of a back end from the crossbar to the Pixel Buffer.
 #include <algorithm>
 
 #include "modules/degs/back_end.hpp"
@@ -24,7 +24,7 @@ void DegsBackEnd::build_scheduler() {
     }
 }
 
-// Queues whose room is asked for tell it in the cycle after.
+// A queue whose room others ask for shows it in the cycle after, so that the answer is certain.
 void DegsBackEnd::connect_crossbar(int bank) {
     const int modules = config_.span.modules();
     const int release = config_.spans_are_pooled() ? 1 : 0;

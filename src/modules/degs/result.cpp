@@ -150,7 +150,7 @@ void Degs::collect_laws(AcceleratorResult& result) const {
     const SlotAccount& s = result.slots;
     result.waited_s = functional_ ? functional_->waited_s() : 0;
     if (functional_ && functional_->fragments() != s[Slot::Useful]) {
-        throw std::logic_error("the model is broken, pixels drawn = useful tasks executed: " +
+        throw std::logic_error("the model is broken, pixels updated = useful tasks executed: " +
                                std::to_string(functional_->fragments()) + " is not " +
                                std::to_string(s[Slot::Useful]));
     }

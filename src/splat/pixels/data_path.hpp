@@ -120,9 +120,9 @@ struct PixelValue {
     bool ended = false;
 };
 
-/// The widest tile whose rows are drawn whole: a bit per column.
+/// The columns of a RowMask, and so of the widest tile whose rows rasterise_rows() can take.
 constexpr int kMostMaskColumns = 128;
-/// The most rows that are drawn at a time.
+/// The most rows that rasterise_rows() takes at a time.
 constexpr int kMostRowsAtOnce = 64;
 
 /// Up to kMostRowsAtOnce rows of one splat inside one tile of at most kMostMaskColumns columns.
@@ -137,8 +137,8 @@ struct TileRows {
     bool tests = false; ///< rows are as wide as the splat's box, and every pixel tests itself
 };
 
-/// What becomes of the pixels of a row. Bit i of a mask is column i of the tile. There is no gap,
-/// so that a copy of what was just written need not wait for the write.
+/// What becomes of the pixels of a row of a splat. Bit i of a mask is column i of the tile. The
+/// struct has no padding, so that a copy of what was just written need not wait for the write.
 struct RowOutcome {
     RowMask inside;          ///< tasks inside the ellipse; all others of the span are outside
     RowMask useful;          ///< of these, blended; the others have ended or refuse the splat
@@ -195,9 +195,9 @@ public:
     /// True if rounding may let test() find pixels inside that lie visibly outside the ellipse of
     /// the splat as it was projected: number sets.
     virtual bool rounds_coarsely() const = 0;
-    /// Solves rows and blends them, each as solve_row() and blend() do, or as row_of_box() and
-    /// test(). `outcomes` has a place for each of the rows, in their order. Splats of a row come in
-    /// the order of their depth.
+    /// Rasterises rows: solves and blends each as solve_row() and blend() do, or as row_of_box()
+    /// and test(). `outcomes` has a place for each of the rows, in their order. Splats of a row
+    /// come in the order of their depth.
     virtual void rasterise_rows(const TileRows& rows, RowOutcome* outcomes) = 0;
     /// Makes room for tile contexts up to this number, at most kMostContexts.
     virtual void hold_contexts(int contexts) = 0;

@@ -235,7 +235,7 @@ private:
     QuantizedGemm gemm_;
     RowNumbers numbers_;
     SolveRowsFunction solve_ = solve_rows_function();
-    std::array<RowSpan, kMostRowsAtOnce> solved_; // of the splat that is drawn
+    std::array<RowSpan, kMostRowsAtOnce> solved_; // of the splat that is rasterised
     QuantizedSlack slack_;
     bool refuse_;
     PixelRows rows_;

@@ -98,9 +98,9 @@ double end_of_pixel(const FrameWorkload& frame, int x, int y) {
     return static_cast<double>(frame.tile_begin[1]);
 }
 
-// Pixels end later from left to right, and columns 0, 4, 8 and 12 are drawn: 12 px apart from each
-// other, and 3 px from the last pixel, half of which is expected because all phases are alike.
-TEST(CoarseTile, ExpectsPixelsThatAreNotDrawnToEndLater) {
+// Pixels end later from left to right, and columns 0, 4, 8 and 12 are sampled: 12 px apart from
+// each other, and 3 px from the last pixel, half of which is expected because all phases are alike.
+TEST(CoarseTile, ExpectsPixelsThatAreNotSampledToEndLater) {
     GaussianCloud cloud;
     for (int i = 0; i < 300; ++i) {
         add_gaussian(cloud, {-2, 0, 4 + 1e-4F * static_cast<float>(i)}, glm::vec3(3), test::kNoTurn,
@@ -120,7 +120,7 @@ TEST(CoarseTile, ExpectsPixelsThatAreNotDrawnToEndLater) {
     EXPECT_LE(tile.walked(), end_of_pixel(frame, 15, 0));
 }
 
-TEST(CoarseTile, DrawsARowOfAnyTileAndPixelsOfAnyWidth) {
+TEST(CoarseTile, SamplesARowOfAnyTileAndPixelsOfAnyWidth) {
     GaussianCloud cloud;
     add_gaussian(cloud, {0, 0, 5}, glm::vec3(1), test::kNoTurn, 0.9F, {1, 1, 1});
     const FrameWorkload frame =

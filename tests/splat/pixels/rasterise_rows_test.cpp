@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows that are drawn whole are those that are solved and blended segment by segment, to the last
-// bit.
+// Rows that are rasterised whole are those that are solved and blended segment by segment, to the
+// last bit.
 #include <algorithm>
 #include <cstring>
 #include <tuple>

@@ -11,7 +11,7 @@
 namespace degs {
 namespace {
 
-// Pixels of a segment that a packet ends.
+// Logs the pixels of a segment that end with a packet.
 void log_ended(EventLog& log, Cycle now, const TaskRun& run, std::uint32_t ended) {
     log.begin(
         log.kind("ended", {{"tile", {}}, {"splat", {}}, {"row", {}}, {"column", {}}, {"mask", {}}}),
@@ -23,7 +23,7 @@ void log_ended(EventLog& log, Cycle now, const TaskRun& run, std::uint32_t ended
     }
 }
 
-// The rows and columns of a tile that lie inside the image: a window may cut it on every side.
+// Logs the rows and columns of a tile that lie inside the image, which may cut it on every side.
 void log_tile(EventLog& log, Cycle now, TileNumber number, const JobTile& tile) {
     const PixelRange rows = tile.image_rows(), columns = tile.image_columns();
     log.begin(log.kind("tile", {{"tile", {}},
@@ -124,7 +124,7 @@ void ArraySlice::start_of_simulation() {
     }
 }
 
-// Inlined: a call more per packet is 1 % of a run.
+// This is inlined, because a call more per packet is 1 % of a run.
 template <ArraySlice::Tasks Kind>
 inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket& packet) {
     const Cycle now = self_.local();

@@ -8,8 +8,8 @@
 namespace degs {
 namespace {
 
-// A short name of the text, which is long: where it lies, which is the same for all who share it.
-// Empty if it cannot be kept.
+// A short key for a long text: the address at which the store keeps it, which is the same for all
+// simulations that share the store. Empty if the store has no room.
 std::string short_name(SharedBytes& kept, const std::string& text) {
     kept.put(text, "");
     const char* const place = kept.find(text).data();
@@ -64,8 +64,8 @@ FunctionalCache::Tile& FunctionalCache::tile(TileNumber number) {
     return *place;
 }
 
-// The pixels of a kept tile behind its last batch: all in the image have ended, or nobody would ask
-// for more.
+// Opens a context that has the pixels of a kept tile as they were after the last batch of its
+// trace. All pixels in the image have ended by then, or nobody would ask for more rows.
 void FunctionalCache::restore_context(Tile& tile) {
     tile.context = contexts_.open();
     std::vector<PixelValue> pixels(tile.job.width);
@@ -147,8 +147,8 @@ void FunctionalCache::read_row(TileNumber number, int row, int count, PixelValue
     }
 }
 
-// Nothing of the tile will be taken any more, and its pixels are still there. A little more than
-// was taken is kept, because another design may hear later of its last pixel's end.
+// Completes the trace before the first row of pixels is cleared. It goes a little further than the
+// rows that were taken here, because another design may hear later of the last pixel's end.
 void FunctionalCache::keep_pixels(Tile& tile) {
     while (tile.live == 0 && tile.batches_after_end < RowBatch::kBatchesAfterEnd &&
            tile.made < tile.batches.size()) {

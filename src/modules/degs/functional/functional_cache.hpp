@@ -13,10 +13,11 @@
 
 namespace degs {
 
-/// Takes tiles that another simulation of the same frames has drawn, and keeps those that it draws
-/// itself: designs that differ in buffers, queues or memory draw the same pixels. A tile is kept up
-/// to its last live pixel and a little further, as FunctionalThread draws it ahead; what lies
-/// behind is drawn on demand, over pixels that have all ended.
+/// Takes the traces of tiles that another simulation of the same frames has kept, and keeps those
+/// of the tiles that it rasterises itself: designs that differ in buffers, queues or memory have
+/// the same traces. A trace goes up to the end of the tile's last live pixel and a little further,
+/// like the work of FunctionalThread; rows behind that are rasterised on demand, over pixels that
+/// have all ended.
 class FunctionalCache final : public FunctionalModel {
 public:
     /// `pixels` names what the pixels of the job's frames depend on beside them, see
@@ -36,14 +37,14 @@ private:
     struct Tile {
         JobTile job;
         TileTraceReader kept; ///< without batches if nobody has kept the tile
-        int context = kNone;  ///< nobody has kept it, or not far enough
+        int context = kNone;  ///< of a tile that is rasterised here; see restore_context()
         TileTraceWriter writer;
-        std::vector<PixelValue> pixels;                 ///< row by row, if they will be kept
-        std::int64_t live = 0;                          ///< pixels that have not ended
-        int batches_after_end = 0;                      ///< with the one in which the tile ended
+        std::vector<PixelValue> pixels; ///< row by row, if they will be kept
+        std::int64_t live = 0;          ///< pixels that have not ended
+        int batches_after_end = 0;      ///< from the one in which the last pixel ended on
         std::vector<std::unique_ptr<RowBatch>> batches; ///< of the list, while somebody needs them
-        std::uint32_t made = 0;                         ///< of them
-        int cleared = 0;                                ///< rows
+        std::uint32_t made = 0;                         ///< batches so far
+        int cleared = 0;                                ///< rows that the simulation has cleared
         bool is_kept() const { return kept.batches() != 0; }
     };
 

@@ -13,7 +13,7 @@
 namespace degs {
 namespace {
 
-/// Draws a splat when it is taken.
+/// Rasterises a splat when it is taken.
 class OnDemandModel final : public FunctionalModel {
 public:
     OnDemandModel(RenderJob& job, const FunctionalOptions& options)

@@ -9,10 +9,11 @@ namespace {
 
 constexpr int kSpins =
     2000; // some 20 us: longer than most waits, and than it takes to sleep and wake
-// What the simulation has given back when it is worth waking the thread that has no room.
+// A thread that has no room is woken once the simulation has given back so much, because waking it
+// takes time, too.
 constexpr std::size_t kWakingBatches = 16;
 constexpr std::size_t kWakingTiles = 4;
-// A cache line's worth, times two.
+// Rows that are prefetched beyond those that are taken: about two cache lines.
 constexpr int kPrefetchedRows = 4;
 
 void relax() {
@@ -45,8 +46,8 @@ FunctionalThread::~FunctionalThread() {
 // The simulation's side: it reads what is published, and says what it has taken and what it waits
 // for.
 
-// The thread stands still while the list of tiles changes. All that have retired have been closed
-// when it has heard of them.
+// Takes over the tiles that have joined the job, and drops those that have retired: receive() has
+// closed these. The lock keeps the thread still, because both sides read the list of tiles.
 void FunctionalThread::hand_over_joined() {
     {
         const std::lock_guard<TurnMutex> lock(*job_.changes);
@@ -75,7 +76,7 @@ void FunctionalThread::take(TileNumber number, std::uint32_t place, const PixelR
                             RowOutcome* outcomes) {
     RowBatch& from = batch(number, place);
     const RowBatch::Splat& splat = from.splats[place % RowBatch::kSplats];
-    // Another processor has written the rows, and what comes next lies behind them.
+    // Another processor has written these rows, and the next ones lie behind them.
     if (!from.outcomes.empty()) {
         const RowOutcome* const behind = from.outcomes.data() + splat.first + splat.rows.size();
         __builtin_prefetch(behind);
@@ -112,7 +113,7 @@ void FunctionalThread::clear_row(TileNumber number, int /*row*/) {
         cleared_tiles_.push_back(number);
         wake_if_useful();
     }
-    if (slots_end() < job_.tiles.size()) { // another frame is there to be drawn ahead
+    if (slots_end() < job_.tiles.size()) { // another frame has come, which can be rasterised ahead
         hand_over_joined();
     }
 }
@@ -161,7 +162,7 @@ void FunctionalThread::await(TileNumber number, std::uint32_t batch, const Ready
     demand_ = kNoDemand;
 }
 
-// With the mutex.
+// The caller holds the mutex.
 void FunctionalThread::wake_if_useful() {
     if (thread_sleeps_ &&
         (taken_batches_.size() >= kWakingBatches || cleared_tiles_.size() >= kWakingTiles)) {
@@ -185,7 +186,7 @@ void FunctionalThread::run() {
     }
 }
 
-// Nothing of the job that it looks at moves meanwhile.
+// One step of the thread. The lock keeps the job's tiles and frames in place meanwhile.
 FunctionalThread::Round FunctionalThread::work() {
     const std::lock_guard<TurnMutex> lock(*job_.changes);
     if (!receive()) {
@@ -194,7 +195,7 @@ FunctionalThread::Round FunctionalThread::work() {
     return serve_demand() || run_ahead() ? Round::Worked : Round::Idle;
 }
 
-// What the simulation has given back. False at the end.
+// Takes back the batches and tiles that the simulation no longer needs. False: the thread stops.
 bool FunctionalThread::receive() {
     {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -216,8 +217,8 @@ bool FunctionalThread::receive() {
     return true;
 }
 
-// One batch of what the simulation waits for. False if it waits for nothing, or is about to see
-// that it need not.
+// Rasterises one batch of the tile that the simulation waits for. False if the simulation waits for
+// nothing, or if what it waits for is there and it is about to see that.
 bool FunctionalThread::serve_demand() {
     const std::uint64_t demand = demand_;
     if (demand == kNoDemand || demand == met_) {
@@ -345,7 +346,8 @@ void FunctionalThread::recycle(RowBatch& batch) {
     free_batches_.push_back(&batch);
 }
 
-// Either the simulation sees the value before it goes to sleep, or this sees that it sleeps.
+// No wake-up is lost: either the simulation sees the value before it goes to sleep, or the thread
+// sees here that the simulation sleeps.
 template <class Value>
 void FunctionalThread::publish(std::atomic<Value>& place, Value value) {
     place = value;

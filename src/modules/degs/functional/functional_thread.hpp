@@ -18,14 +18,15 @@
 
 namespace degs {
 
-/// Draws tile after tile on a thread of its own, some tiles ahead of the simulation. A tile is
-/// drawn until all its pixels have ended, and a little further, because its slicing goes on until
-/// it hears of that. If the simulation asks for rows beyond that, the thread draws them on demand.
-/// The results wait in memory, of which the thread takes a bounded amount.
+/// Rasterises tile after tile on a thread of its own, some tiles ahead of the simulation. A tile is
+/// rasterised until all its pixels have ended, and a little further, because the Slicing Units
+/// go on until they hear of that. If the simulation asks for rows beyond that, the thread
+/// rasterises them on demand. The outcomes wait in memory, of which the thread takes a bounded
+/// amount.
 ///
-/// The thread owns the pixels of the data path. It publishes batches, which hold the rows of some
-/// neighbouring splats of a list, and the pixels of tiles that will not change; the simulation
-/// reads nothing else. Whenever it draws, it holds RenderJob::changes.
+/// The thread owns the pixels of the data path. It publishes batches of rows, and the pixels of
+/// tiles that will not change; the simulation reads nothing else. Whenever the thread rasterises,
+/// it holds RenderJob::changes, so that no tile is added or removed meanwhile.
 class FunctionalThread final : public FunctionalModel {
 public:
     FunctionalThread(RenderJob& job, const FunctionalOptions& options);
@@ -39,32 +40,32 @@ public:
     double waited_s() const override { return waited_s_; }
 
 private:
-    static constexpr std::size_t kMostBytes = std::size_t{4} << 20U; // that wait
-    static constexpr std::size_t kMostTiles = 64;                    // that wait
+    static constexpr std::size_t kMostBytes = std::size_t{4} << 20U; // of outcomes ahead
+    static constexpr std::size_t kMostTiles = 64; // open at a time, ahead of the simulation
     static constexpr std::uint64_t kNoDemand = ~std::uint64_t{0};
     static constexpr std::uint32_t kWholeTile = ~std::uint32_t{0}; // in place of a batch
 
-    /// A tile that is drawn.
+    /// A tile that is being rasterised, or whose outcomes the simulation has not taken yet.
     struct Tile {
         JobTile job;
         int context = 0;
         std::int64_t live = 0;               // pixels that have not ended
-        int batches_after_end = 0;           // with the one in which the tile ended
-        std::vector<RowBatch*> batches;      // of the whole list; nullptr once they are taken
+        int batches_after_end = 0;           // from the one in which the last pixel ended on
+        std::vector<RowBatch*> batches;      // of the whole list; nullptr: taken, or not there yet
         std::atomic<std::uint32_t> ready{0}; // batches that are published
-        std::vector<PixelValue> pixels;      // row by row; there if final
+        std::vector<PixelValue> pixels;      // row by row; filled when the tile is final
         std::atomic<bool> final{false};      // no pixel changes any more
-        int cleared = 0;                     // rows, by the simulation
+        int cleared = 0;                     // rows that the simulation has cleared
         bool listed() const { return ready.load(std::memory_order_relaxed) == batches.size(); }
         std::size_t pixel_bytes() const { return pixels.size() * sizeof(PixelValue); }
     };
 
-    /// A tile of the job, whether it is drawn or not.
+    /// A tile of the job, in whatever state it is.
     struct Slot {
         explicit Slot(const JobTile& listed) : job(listed) {}
         JobTile job;
-        std::atomic<Tile*> open{nullptr}; // nullptr: not drawn yet, or closed
-        bool passed = false;              // has been closed; for the thread alone
+        std::atomic<Tile*> open{nullptr}; // nullptr: not begun yet, or closed
+        bool passed = false;              // it has been closed; only the thread reads this
     };
 
     /// The batch of a tile that the simulation has asked for last, unless all of it has been taken.
@@ -73,7 +74,7 @@ private:
         std::uint32_t index = 0;
         RowBatch* batch = nullptr;
     };
-    static constexpr std::size_t kAsked = 64; // tiles that are sliced at once, most often
+    static constexpr std::size_t kAsked = 64; // mostly more than the tiles that are sliced at once
 
     // The simulation's side.
     void hand_over_joined();
@@ -104,9 +105,9 @@ private:
 
     RenderJob& job_;
     FunctionalOptions options_;
-    std::deque<Slot> slots_; // by tile; changed with RenderJob::changes alone
+    std::deque<Slot> slots_; // by tile; changed only by who holds RenderJob::changes
     std::size_t first_slot_ = 0;
-    std::array<Asked, kAsked> asked_; // by tile modulo their number
+    std::array<Asked, kAsked> asked_; // a tile is at its number modulo kAsked
     double waited_s_ = 0;
 
     TileContexts contexts_;
@@ -114,7 +115,7 @@ private:
     std::vector<std::unique_ptr<RowBatch>> all_batches_;
     std::vector<Tile*> free_tiles_;
     std::vector<RowBatch*> free_batches_;
-    TileNumber next_ = 0; // that is drawn ahead
+    TileNumber next_ = 0; // the tile that is rasterised ahead
     std::size_t bytes_ = 0, open_tiles_ = 0;
     std::uint64_t met_ = kNoDemand; // the latest demand that was found met
     std::vector<RowBatch*> received_batches_;

@@ -10,11 +10,12 @@
 
 namespace degs {
 
-/// The drawn rows of some neighbouring splats of a tile's list, from a multiple of kSplats on.
+/// The outcomes of the rows of up to kSplats neighbouring splats of a tile's list, from a multiple
+/// of kSplats on.
 struct RowBatch {
     static constexpr std::uint32_t kSplats = 32;
-    /// A tile is drawn up to the batch in which its last pixel ends, and one more, because its
-    /// slicing goes on until it hears of that.
+    /// A tile is rasterised up to the batch in which its last pixel ends, and one more, because the
+    /// Slicing Units go on until they hear of that end.
     static constexpr int kBatchesAfterEnd = 2;
 
     struct Splat {
@@ -23,19 +24,20 @@ struct RowBatch {
     };
     std::array<Splat, kSplats> splats;
     std::vector<RowOutcome> outcomes;
-    std::uint32_t takes = 0; ///< by the simulation, that are left
+    std::uint32_t takes = 0; ///< calls of take() that are still to come, see FunctionalModel
 
     std::size_t bytes() const { return sizeof(RowBatch) + outcomes.size() * sizeof(RowOutcome); }
     static std::size_t batches_of(const JobTile& tile) {
         return (tile.count + kSplats - 1) / kSplats;
     }
-    /// Splats of batch `index` of a tile.
+    /// The number of splats in batch `index` of a tile.
     static std::uint32_t splats_of(const JobTile& tile, std::uint32_t index);
 
-    /// Draws batch `index` of a tile on its context, after all before it. The batch is empty.
+    /// Rasterises batch `index` of a tile in its context, after all batches before it. The object
+    /// must be empty.
     void rasterise(RenderJob& job, const JobTile& tile, std::uint32_t index,
                    const FunctionalOptions& options, TileContexts& contexts, int context);
-    /// Pixels that end with its splats.
+    /// The number of pixels that end with these splats.
     std::int64_t ended_pixels() const;
     /// Copies the rows own.first, own.first + step, ... own.last of a splat.
     void copy(std::uint32_t place, const PixelRange& own, int step, RowOutcome* to) const {

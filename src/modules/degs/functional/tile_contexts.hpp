@@ -8,17 +8,19 @@
 
 namespace degs {
 
-/// The pixels of the tiles that are drawn: each has a context, which is a context of the data path.
+/// The pixel state of the tiles that are rasterised: each has a context of the data path. A context
+/// that is free again is given to another tile.
 class TileContexts {
 public:
     /// `tests`: the PEs test their pixels, see TileRows.
     TileContexts(RenderJob& job, bool tests) : job_(job), tests_(tests) {}
 
+    /// Returns a context whose pixels are those of a new tile.
     int open();
-    /// All rows of the context are cleared already.
+    /// The caller has cleared all rows of the context.
     void close(int context) { free_.push_back(context); }
-    /// Draws rows first, first + step, ... last of a splat inside the tile. The splats of a row
-    /// come in depth order.
+    /// Rasterises the rows first, first + step, ... last of a splat inside the tile. The splats of
+    /// a row must come in depth order.
     void rasterise(int context, const JobTile& tile, std::uint32_t splat, const PixelRange& range,
                    int step, RowOutcome* outcomes);
     void read_row(int context, int row, int count, PixelValue* pixels) const {

@@ -10,8 +10,8 @@
 namespace degs {
 namespace {
 
-// The head: batches, bytes of the rows, and whether pixels are in single precision. Ends of
-// batches, pixels and rows follow.
+// The head of a trace has three numbers: how many batches and how many pixels follow, and whether
+// pixels are in single precision. The ends of the batches, the pixels and the rows come behind it.
 using Head = std::array<std::uint32_t, 3>;
 
 // Says which masks of a row are stored, because they do not follow from the span.
@@ -27,7 +27,7 @@ int bytes_of(int bits) {
     return (bits + 7) / 8;
 }
 
-// Bits of a mask from column x0 on. A mask has 128 bits, and from() gives 32 of them.
+// Appends the bits of a mask from column x0 on, byte by byte.
 void put_mask(std::string& to, const RowMask& mask, int x0, int length) {
     for (int byte = 0; byte < bytes_of(length); ++byte) {
         to.push_back(static_cast<char>(mask.from(x0 + 8 * byte) & 0xFFU));
@@ -47,7 +47,8 @@ std::uint64_t ones(int bits) {
     return bits >= 64 ? ~std::uint64_t{0} : bits <= 0 ? 0 : (std::uint64_t{1} << bits) - 1;
 }
 
-// Bytes beyond the mask are read, too, and cut off.
+// Reads a mask as one or two whole words, because that is faster than byte by byte, and cuts off
+// the bits beyond it.
 RowMask take_mask(const char*& from, int x0, int length) {
     std::uint64_t words[2] = {0, 0};
     std::memcpy(words, from, length <= RowMask::kHalf ? sizeof words[0] : sizeof words);
@@ -59,7 +60,7 @@ RowMask take_mask(const char*& from, int x0, int length) {
     return mask_of(words[0] & ones(length), words[1] & ones(length - RowMask::kHalf), x0);
 }
 
-// All pixels of a span.
+// The mask of all pixels of a span.
 RowMask span_mask(int x0, int length) {
     return mask_of(ones(length), ones(length - RowMask::kHalf), x0);
 }
@@ -136,7 +137,7 @@ bool is_float(double value) {
     return static_cast<double>(static_cast<float>(value)) == value;
 }
 
-// All values of formats up to 32 bits are.
+// True for all values of number formats of up to 32 bits, which then take half of the bytes.
 bool are_floats(const std::vector<PixelValue>& pixels) {
     return std::all_of(pixels.begin(), pixels.end(), [](const PixelValue& pixel) {
         return is_float(pixel.transmittance) && std::all_of(pixel.rgb, pixel.rgb + 3, is_float);

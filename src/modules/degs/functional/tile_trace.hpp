@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drawn tile as bytes of this machine, a few for each row.
+// The functional trace of a tile in few bytes: the outcomes of all its rows, and its final pixels.
+// Numbers are in the byte order of this machine, because traces are kept in memory alone.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +12,12 @@
 
 namespace degs {
 
-/// Collects the batches and pixels of a tile.
+/// Writes the trace of a tile, batch by batch.
 class TileTraceWriter {
 public:
-    /// The next batch, which has the drawn rows of `splats` splats.
+    /// Appends the next batch, which has the rows of `splats` splats.
     void add(const RowBatch& batch, std::uint32_t splats);
-    /// The bytes of the batches that were added, and of the pixels of the tile, row by row.
+    /// The trace of the batches that were added, with the pixels of the tile, row by row.
     std::string bytes(const std::vector<PixelValue>& pixels) const;
 
 private:
@@ -24,17 +25,17 @@ private:
     std::string rows_;
 };
 
-/// Reads what TileTraceWriter has written; the bytes outlive it.
+/// Reads what TileTraceWriter has written. The bytes must outlive the reader.
 class TileTraceReader {
 public:
     TileTraceReader() = default;
     explicit TileTraceReader(std::string_view bytes);
 
-    /// Sheets that it has; 0 without bytes.
+    /// The number of batches in the trace; 0 if there are no bytes.
     std::uint32_t batches() const { return batches_; }
-    /// Puts batch `index`, of so many splats, into an empty one; `takes` stays.
+    /// Reads batch `index`, which has so many splats, into an empty one. `takes` stays as it is.
     void read(std::uint32_t index, std::uint32_t splats, RowBatch& batch) const;
-    /// `count` pixels from number `first` on, row by row.
+    /// Reads `count` pixels from number `first` on; pixels are numbered row by row.
     void read_pixels(std::size_t first, std::size_t count, PixelValue* pixels) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cycle of a bank, and its intake.
+// The loop over the cycles of a bank, and how it takes in spans.
 #include "modules/degs/scheduler/bank_cycles_issue.hpp"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ void BankCycles::run_by() {
     }
 }
 
-// The pixels of the span's next segment.
+// The mask of the pixels that the next segment of the span has.
 inline std::uint32_t BankCycles::cut_mask() const {
     const std::uint64_t high = std::uint64_t{1} << std::min(left_, segment_length_);
     return static_cast<std::uint32_t>(high - low_);
@@ -114,8 +114,8 @@ inline __attribute__((always_inline)) void BankCycles::accept() {
     }
 }
 
-// The stream, which has no span to take now, has none before this date, as long as its tiles stay
-// as they are.
+// The date before which the stream, which has no span to take now, will have none, as long as its
+// tiles stay as they are.
 inline __attribute__((always_inline)) Cycle BankCycles::next_span_from(const BankStream& stream) {
     const BankStream::Input& input = stream.inputs.front();
     if (!takes(stream, input)) {
@@ -156,7 +156,8 @@ BankCycles::spans_of(const BankStream::Input& input) const {
     return intake == Intake::Single ? *spans_ : *input.spans;
 }
 
-// The one whose item has arrived first, ties by input; nullptr: none may be taken.
+// The input of the stream whose item has arrived first; of several, the first input. nullptr if no
+// item may be taken.
 template <BankCycles::Intake intake>
 inline __attribute__((always_inline)) BankStream::Input*
 BankCycles::earliest_input(BankStream& stream) {
@@ -183,7 +184,7 @@ BankCycles::earliest_input(BankStream& stream) {
     return source;
 }
 
-// False if the span has to wait for the parameters of its splat.
+// Asks the Feature Buffer for an entry. False if the span has to wait for its splat's parameters.
 inline __attribute__((always_inline)) bool
 BankCycles::admits(const BankStream& stream, TileNumber number, std::uint32_t splat) {
     if (!features_.admit(number, splat, now_, stream.index)) {
@@ -205,7 +206,7 @@ inline __attribute__((always_inline)) void BankCycles::start(const BankStream& s
     stats_.tasks_in += length;
 }
 
-// What becomes of the tasks of the span that starts.
+// Notes where the outcomes of the span that starts are.
 template <class Row>
 inline __attribute__((always_inline)) void BankCycles::start_replay(const Row& row) {
     row_inside_ = &row.inside;
@@ -215,7 +216,8 @@ inline __attribute__((always_inline)) void BankCycles::start_replay(const Row& r
     useful_ += row.useful.count();
 }
 
-// False if no span of the stream may be taken. Ends of tiles on the way cost nothing.
+// Takes the next span of the stream, and the ends of tiles before it, which cost nothing. False if
+// no span may be taken.
 template <BankCycles::Kind kind, BankCycles::Intake intake>
 inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& stream) {
     for (;;) {
@@ -274,7 +276,8 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
     }
 }
 
-// False if the queue has no room; the segment is then cut later.
+// Cuts the next segment off the span and queues or drops it. False if the queue has no room; the
+// segment is then cut later.
 template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) bool BankCycles::cut_segment() {
     Domain& domain = cut_tile_->domains[cut_];

@@ -21,7 +21,7 @@ namespace degs {
 /// segments, and ends tiles; a bank with select_cycles then chooses the segments of a later cycle.
 class BankCycles {
 public:
-    /// What an Issue Bank has, for its cycles.
+    /// The parts of an Issue Bank that its cycles work on.
     struct Parts {
         const sc_core::sc_object& bank;
         const IssueBank::Config& config;
@@ -48,19 +48,19 @@ public:
     void run();
 
 private:
-    /// What the loop over cycles chooses a domain by.
+    /// By what the loop over cycles chooses the domain that issues next.
     enum class Choice {
         InTurn, ///< few domains of a tile, round robin
         Keyed,  ///< keys, in the oldest tile of a stream that has a domain to issue from
         Oldest  ///< keys, in all tiles at once: each stream has one that may issue
     };
-    /// Where spans come from. The loop over cycles asks for nothing else.
+    /// Where spans come from. The loop over cycles is compiled for each, so that it need not ask.
     enum class Intake {
         Single,   ///< SpanReplay of the only tile stream
         Replayed, ///< SpanReplay, one per stream
         Rings     ///< rings of the crossbar
     };
-    /// What the loop over cycles asks about.
+    /// How much the loop over cycles has to ask about.
     enum class Kind {
         Plain,  ///< nothing more: packets are counted, and segments go in the cycle of the choice
         General ///< whether the Packing Unit looks at tasks, and whether the bank chooses ahead
@@ -82,7 +82,7 @@ private:
         Waiting* next;
         std::uint16_t feature;
     };
-    /// What the Packing Unit also needs of a waiting segment.
+    /// What the Packing Unit also needs of a waiting segment, if it looks at tasks.
     struct Values {
         std::uint32_t splat = 0, useful = 0;
         double g0 = 0, d0 = 0;
@@ -150,8 +150,8 @@ private:
     void end_pixels(const Termination& message);
     [[gnu::noinline]] void see_contexts();
     void end_pixels(Domain& domain, std::uint32_t mask) const;
-    // Drawn tasks report the ends of their pixels when they are issued, so a report that the ring
-    // does not hold yet is due later than now.
+    // True if terminations may be taken now. Replayed tasks report the ends of their pixels when
+    // they are issued, so a report that the ring does not hold yet is due later than now.
     template <Kind kind>
     bool has_terminations() const {
         return kind == Kind::Plain || slice_ != nullptr
@@ -159,7 +159,8 @@ private:
                    : self_.arrived(terminations_);
     }
     void list_started();
-    // An item that is there needs no proof.
+    // True if an item may be read now. Only if there is none does the answer need a proof that none
+    // will come for this date.
     bool arrived(FifoBase& fifo) const {
         return fifo.empty() ? now_ >= fifo.quiet_until() && self_.arrived(fifo)
                             : fifo.head_date() <= now_;
@@ -215,7 +216,7 @@ private:
     void finish_tiles(BankStream& stream);
     void finish();
 
-    // A key names its domain, unless there is no room for that.
+    // True if a key contains the number of its domain: there are bits enough.
     bool keys_name_domains() const { return key_mask_ != 0 || domain_count_ == 1; }
     std::uint32_t after(int number) const { return number + 1 < domain_count_ ? number + 1 : 0; }
 
@@ -232,7 +233,7 @@ private:
     std::unique_ptr<Tile>& place_of(std::size_t stream, std::size_t turn) {
         return tiles_[stream * (tile_mask_ + 1) + (turn & tile_mask_)];
     }
-    /// Of a turn that has been entered.
+    /// The tile of a turn that has been entered.
     Tile& tile_at(std::size_t stream, std::size_t turn) { return *place_of(stream, turn); }
 
     const sc_core::sc_object& bank_;
@@ -265,9 +266,9 @@ private:
     std::vector<Values> values_; // of each of these, for Kind::General alone
     Waiting* free_ = nullptr;
     std::size_t size_ = 0;     // segments that wait
-    std::size_t issuable_ = 0; // of these, in tiles that may issue
-    // The smallest key of the ready domains is the one to issue. It is the number of the domain,
-    // if there is room for that, below the order of arrival.
+    std::size_t issuable_ = 0; // segments among them whose tiles may issue
+    // The ready domain with the smallest key issues next. A key is the order of arrival and, in its
+    // lowest bits if there is room for that, the number of the domain.
     std::uint32_t next_key_ = 0, key_step_ = 1;
     std::uint32_t key_mask_ = 0; // of the domain in a key; 0: keys are the order of arrival alone
     // Stream by stream, by their turn modulo a power of two; null before the first tile.

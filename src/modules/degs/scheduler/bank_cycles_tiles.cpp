@@ -10,7 +10,8 @@ namespace {
 // One scan over the domains of all tiles pays off up to so many of them.
 constexpr std::size_t kMostDomainsOfAll = 4096;
 
-// Tiles in flight find theirs by their turn modulo a power of two.
+// The number of places for tiles in flight of a stream. It is a power of two, because a tile finds
+// its place by its turn modulo that number.
 std::size_t places_of(const BankCycles::Parts& parts) {
     const int tiles = parts.streams.size() == 1 ? parts.tiles_in_flight : parts.contexts;
     std::size_t places = 1;
@@ -132,7 +133,8 @@ void BankCycles::enter_tile(BankStream& stream, TileNumber number) {
     }
 }
 
-// The keys have come to their end: the segments that wait get the lowest ones, in their order.
+// Called when the largest key has been given: the waiting segments get the lowest keys, in their
+// order, so that counting can go on.
 void BankCycles::renumber() {
     std::vector<Waiting*> waiting;
     for (const std::unique_ptr<Tile>& tile : tiles_) {
@@ -200,7 +202,7 @@ void BankCycles::end_pixels(const Termination& message) {
     }
 }
 
-// Tasks of a segment go nowhere.
+// Drops tasks of a segment whose pixels have all ended, and takes them out of the totals.
 void BankCycles::drop(const Waiting& segment, std::uint32_t tasks) {
     stats_.tasks_dropped += __builtin_popcount(tasks);
     inside_ -= __builtin_popcount(tasks & segment.inside);
@@ -290,7 +292,7 @@ TaskRun BankCycles::run_of(const Tile& tile, int number, const Waiting& segment)
     return run;
 }
 
-// Pixels of a domain end with these tasks of a packet.
+// Tells the slice that pixels of a domain end with these tasks of a packet.
 void BankCycles::end_replayed(const Tile& tile, int number, std::uint32_t tasks, Cycle date) {
     const Segmenter::Domain& place = segmenter_.domains()[number];
     TaskRun run;
@@ -330,7 +332,8 @@ void BankCycles::finish_tiles(BankStream& stream) {
     }
 }
 
-// kNoTile: that of the stream.
+// Counts an end of tile `number` that an input has sent; with kNoTile the stream itself ends. A
+// tile is over for the bank once all inputs of its stream have sent its end.
 void BankCycles::take_end(BankStream& stream, TileNumber number) {
     if (++stream.ends_seen != stream.inputs.size()) {
         return;

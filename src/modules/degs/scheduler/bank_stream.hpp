@@ -14,7 +14,7 @@ class SpanReplay;
 /// How far an Issue Bank is with the tiles of one tile stream. These come one after another and are
 /// numbered by their turn.
 struct BankStream {
-    /// From a Span Unit that reaches the bank.
+    /// The spans that one Span Unit sends to the bank.
     struct Input {
         DatedFifo<SpanItem>* ring = nullptr;
         SpanReplay* spans = nullptr; ///< read in place of the ring, unless it is null

@@ -21,7 +21,8 @@ void PackingUnit::separate(Process& bank, const TaskRun& run) {
     first_tile_ = run.tile;
 }
 
-/// Tasks that have to be looked at: they want ports, or have been drawn and are recorded.
+/// Puts tasks into packets that have to be looked at, because they want ports, or because they are
+/// replayed and recorded.
 class PackingUnit::PickySink : public Sink {
 public:
     PickySink(PackingUnit& unit, Process& bank, const TaskRun& run, std::uint32_t mask, int entry)
@@ -84,7 +85,7 @@ Cycle PackingUnit::add_picky(Process& bank, const TaskRun& run, std::uint32_t ma
     return last;
 }
 
-// In the open packet.
+// Records tasks that go to the open packet.
 void PackingUnit::record_tasks(const TaskRun& run, std::uint32_t part) {
     const auto add = [&](Slot slot, std::uint32_t tasks) {
         if (tasks != 0) {
@@ -100,7 +101,7 @@ void PackingUnit::record_tasks(const TaskRun& run, std::uint32_t part) {
     latest_tile_ = run.tile;
 }
 
-// The open packet, of drawn tasks.
+// Records the empty slots of the open packet, whose tasks are replayed.
 void PackingUnit::record_packet(Slot cause) {
     if (packet_.room() != 0) {
         part_->add(cause, latest_tile_, packet_.slot(), packet_.room());
@@ -137,7 +138,7 @@ bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, 
     return queued + packets <= most && packet_.can_write_packets(now, complete);
 }
 
-// All runs of the packet are of one span.
+// The first task stands for all, because without reorganisation a packet has tasks of one span.
 bool PackingUnit::joins(const TaskRun& run) const {
     if (!packet_.open()) {
         return true;
@@ -171,7 +172,7 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context)
     }
 }
 
-// Tells the slice that a tile ends.
+// Tells the slice of the end of a tile without the ring.
 void PackingUnit::tell_end(Cycle slot, bool packet) {
     slice_->pass_end(ended_tile_, ended_context_, slot, packet);
 }

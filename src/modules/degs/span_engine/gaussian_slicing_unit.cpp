@@ -125,7 +125,8 @@ void GaussianSlicingUnit::end_lanes(TileNumber number) {
     }
 }
 
-// kNoTile: there is no next tile, or, as an argument, none before.
+// The number of the tile that is sliced after tile `number`, or kNoTile if none follows. With
+// kNoTile as the argument, the first tile.
 TileNumber GaussianSlicingUnit::tile_after(TileNumber number) {
     if (config_.granted) {
         return in[0]->arrive(self_).tile;
@@ -206,7 +207,8 @@ bool GaussianSlicingUnit::more_splats(TileNumber number) {
     return true;
 }
 
-// In the order of age: an older splat passes a row before a younger one sends it.
+// A cycle of the units. They go in the order of age of their splats, because an older splat passes
+// a row before a younger one may send it.
 void GaussianSlicingUnit::work(TileNumber number) {
     int passed = job_.tile_size; // the first row that some older splat has not passed
     bool finished = false;
@@ -313,7 +315,7 @@ void GaussianSlicingUnit::see_ended_regions(TileNumber number) {
     }
 }
 
-// The host's memory then answers for all splats of the chunk at once.
+// Asks early for all splats of the chunk, so that the host's caches load them side by side.
 void GaussianSlicingUnit::expect_splats() const {
     if (functional_ != nullptr) {
         functional_->expect(chunk_);
@@ -322,7 +324,7 @@ void GaussianSlicingUnit::expect_splats() const {
     }
 }
 
-// The segments of a row that the splat's box covers inside the tile.
+// The segments of a row that the splat's box covers inside the tile, a bit each.
 std::uint64_t GaussianSlicingUnit::segments_below(const JobTile& tile, std::uint32_t splat) const {
     const PixelRange columns = job_.path->columns(splat).within(tile.columns()).relative_to(tile.x);
     if (columns.empty()) {
@@ -343,7 +345,7 @@ void GaussianSlicingUnit::begin(TileNumber number, Slice& slice) {
     const PixelRange rows = functional_ != nullptr
                                 ? functional_->rows(number, place)
                                 : sliced_rows(job_, tile, slice.splat, config_.rows);
-    // The first one of ours.
+    // The first row that this module owns.
     slice.row = rows.first + (index_ - rows.first % modules_ + modules_) % modules_;
     slice.last = rows.last;
     if (log_ != nullptr) {
@@ -357,7 +359,8 @@ void GaussianSlicingUnit::begin(TileNumber number, Slice& slice) {
     take_outcomes(number, place, slice);
 }
 
-// Splats begin in depth order, whatever unit of the module they are in.
+// Takes the outcomes of the slice's rows from the functional model, if there is one. The model asks
+// for depth order, which holds because splats begin in that order in all units of a module.
 void GaussianSlicingUnit::take_outcomes(TileNumber number, std::uint32_t place, Slice& slice) {
     if (free_row_buffers_.empty()) {
         free_row_buffers_.push_back(row_buffers_.size());

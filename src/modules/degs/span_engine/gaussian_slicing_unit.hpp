@@ -98,13 +98,13 @@ public:
     const Stats& stats() const { return stats_; }
     /// The Span Units that read output `lane`, if known; before the simulation starts.
     void write_to(std::size_t lane, const SpanStage& spans) { readers_[lane] = &spans; }
-    /// Has the rows of every splat drawn; before the simulation starts.
+    /// Takes the rows of every splat and their outcomes from `model`; before the simulation starts.
     void replay(FunctionalModel& model) { functional_ = &model; }
-    /// Chunks of splats, cancelled tiles and ended regions taken, rows and ends of tiles sent.
+    /// Logs chunks of splats, cancelled tiles and ended regions taken, rows and ends of tiles sent.
     void log_to(EventLog& log) override { log_ = &log; }
 
 private:
-    /// A splat in a unit.
+    /// A splat that a unit works on.
     struct Slice {
         std::uint32_t splat = 0;
         int row = 0, last = -1;              // the next row to send, and the last one
@@ -112,7 +112,7 @@ private:
         int rows_left = 0;                   // that the unit may send in this cycle
         int splats_left = 0;                 // that it may take in this cycle, this one included
         std::uint64_t chunk = 0;             // see OpenChunks
-        std::size_t row_buffer = 0;          // of row_buffers_
+        std::size_t row_buffer = 0;          // its place in row_buffers_
         const RowOutcome* outcome = nullptr; // of `row`
         bool done() const { return row > last; }
     };
@@ -146,7 +146,7 @@ private:
     std::vector<std::size_t> lane_of_row_;   // output port by row inside the tile
     std::vector<DatedFifo<RowItem>*> lanes_; // what the ports are bound to
     std::vector<const SpanStage*> readers_;
-    std::vector<SpanReplay*> replay_lanes_; // what takes the rows of a lane in its place, if any
+    std::vector<SpanReplay*> replay_lanes_; // by lane: takes its rows in its place; may be null
     struct Writes {
         Cycle date = 0;
         int count = 0;
@@ -160,7 +160,7 @@ private:
     std::vector<Slice> slices_;        // in work, oldest first
     OpenChunks open_chunks_;
     FunctionalModel* functional_ = nullptr;
-    std::vector<std::vector<RowOutcome>> row_buffers_; // rows of the splats in work
+    std::vector<std::vector<RowOutcome>> row_buffers_; // outcomes of the splats in work
     std::vector<std::size_t> free_row_buffers_;
     Stats stats_;
     EventLog* log_ = nullptr;

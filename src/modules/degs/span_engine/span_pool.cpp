@@ -123,7 +123,7 @@ inline __attribute__((always_inline)) bool SpanPool::take_from(Lane& lane) {
     return true;
 }
 
-// From the lanes in turn. Returns the number of rows.
+// Takes rows for one unit from the lanes in turn. Returns how many.
 inline __attribute__((always_inline)) int SpanPool::take_for_unit() {
     int taken = 0;
     const std::size_t lanes = lanes_.size();
@@ -209,7 +209,7 @@ void SpanPool::pass_end(Lane& lane) {
     lane.has_row = self_.arrived(*lane.rows) && !lane.rows->front().end;
 }
 
-// A lane is an SRAM bank.
+// True if the lane can give another row in this cycle: it is an SRAM bank with so many read ports.
 bool SpanPool::has_port(Lane& lane) {
     if (lane.read != self_.local()) {
         lane.read = self_.local();
@@ -218,7 +218,7 @@ bool SpanPool::has_port(Lane& lane) {
     return lane.reads < config_.row_ports.ports;
 }
 
-// To every bank that the module reaches; false if one has no place for it yet.
+// Sends the end of a tile to every bank that the module reaches. False if a bank has no place yet.
 bool SpanPool::send_end(Stream& stream) {
     for (; stream.end_port < stream.rings.size(); ++stream.end_port) {
         DatedFifo<SpanItem>& ring = *stream.rings[stream.end_port];

@@ -60,7 +60,8 @@ void SpanReplay::make_room(Process& writer) {
     writer.advance_to(reads_[(put_ - span_) & reads_mask_], lane_counts_.full_cycles);
 }
 
-// The item that has left a place last is that of the place itself, or the one before it there.
+// A place of the lane keeps the date at which an item left it last. That item is the one with the
+// place's number, or the one that lay there before it.
 void SpanReplay::add_places() {
     std::vector<Cycle> more(2 * reads_.size());
     const std::size_t mask = more.size() - 1;
@@ -101,7 +102,7 @@ void SpanReplay::tell_unit() {
 }
 
 void SpanReplay::pump() {
-    if (turns_ != nullptr) { // it takes the rows, once somebody needs what follows
+    if (turns_ != nullptr) { // SpanTurns takes the rows, once somebody needs what follows
         turns_->has_room();
         if (lane_.full()) {
             turns_->pump();

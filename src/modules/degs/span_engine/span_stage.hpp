@@ -39,7 +39,7 @@ public:
         int crossbar_width = 0;    ///< Span Vectors that a bank takes per cycle; 0: all it can cut
         SramPorts row_ports;       ///< of a lane of the Span Buffer, whose section has the key
         bool reports_rows = false; ///< to Parameter Release
-        bool replays = false;      ///< rows come solved, see FunctionalModel
+        bool replays = false;      ///< rows come with outcomes, see FunctionalModel
         bool granted = false;      ///< tiles come one by one, see TileEnd
         void describe(ConfigVisitor& visitor);
         /// Modules of the stage; each has units_per_module() units.
@@ -70,15 +70,16 @@ public:
 
     const Stats& stats() const { return stats_; }
     ~SpanStage() override;
-    /// What `bank`, which reads nobody else's rows, reads in place of the crossbar's rings, one per
-    /// stream, and the Slicing Units write in place of the lanes; empty unless rows come drawn and
-    /// nobody looks on. Before the simulation starts.
+    /// Makes and returns the replays, one per stream, which `bank` reads in place of the crossbar's
+    /// rings, and which the Slicing Units write in place of the lanes. `bank` must read no other
+    /// rows. Empty unless rows come with outcomes and nobody watches the rings. Before the
+    /// simulation starts.
     virtual const std::vector<std::unique_ptr<SpanReplay>>& hand_over(Process& bank) = 0;
-    /// What hand_over() has returned.
+    /// The replays that hand_over() has returned.
     const std::vector<std::unique_ptr<SpanReplay>>& replays() const { return replays_; }
-    /// What of it carries the rows of `lane`; nullptr if nothing does.
+    /// The replay that carries the rows of `lane`; nullptr if there is none.
     SpanReplay* replay_of(const DatedFifo<RowItem>& lane) const;
-    /// Rows taken from the lanes, Span Vectors and ends of tiles sent.
+    /// Logs rows taken from the lanes, Span Vectors and ends of tiles sent.
     void log_to(EventLog& log) override { log_ = &log; }
 
 protected:
@@ -91,17 +92,18 @@ protected:
             port->connect_writer(self);
         }
     }
-    /// The row that has just been taken from a lane.
+    /// Reports a row that has just been taken from a lane, if Parameter Release wants to know.
     void report(Process& self, std::size_t lane) {
         if (config_.reports_rows) {
             solved[lane]->put(self, {});
         }
     }
-    /// Replaces lane `lane` and its ring of the crossbar; for hand_over().
+    /// Makes the replay that stands for lane `lane` and its ring of the crossbar.
     void hand_over(std::size_t lane, Process& self, Process& bank);
-    /// True if rows come drawn, and nobody looks at what goes through the rings.
+    /// True if rows come with outcomes, and nobody watches what goes through the rings.
     bool can_hand_over();
-    /// Solves a row of a splat in `result`. False: it misses every pixel of the tile.
+    /// Solves a row of a splat and writes its span to `result`. False if the row misses every pixel
+    /// of the tile.
     inline bool solve(const RowItem& row, SpanItem& result);
 
     Config config_;
@@ -109,7 +111,7 @@ protected:
     TileEnd tiles_;
     Stats stats_;
     EventLog* log_ = nullptr;
-    std::vector<std::unique_ptr<SpanReplay>> replays_; // see hand_over(): by lane
+    std::vector<std::unique_ptr<SpanReplay>> replays_; // by lane; see hand_over()
 };
 
 // Inlined in the hot loops. The pixels of the span are made in place, because a copy of what was

@@ -115,7 +115,7 @@ inline __attribute__((always_inline)) void SpanTurns::look_at(Stream& stream) {
     }
 }
 
-// What is not certain about the stream at `date`, up to which it has nothing to do.
+// Says what is not certain about the stream at `date`, up to which it has nothing to do.
 inline __attribute__((always_inline)) SpanTurns::Missing SpanTurns::missing(const Stream& stream,
                                                                             Cycle date) const {
     SpanReplay& spans = *stream.spans;
@@ -199,7 +199,7 @@ inline __attribute__((always_inline)) SpanTurns::Stream* SpanTurns::take(Cycle d
     return first;
 }
 
-// What ends at the start of the cycle.
+// Passes on the ends of tiles that come at the start of the cycle.
 void SpanTurns::pass_ends(Cycle date) {
     for (Stream& stream : streams_) {
         if (stream.ends && stream.from <= date) {
@@ -227,7 +227,7 @@ void SpanTurns::pass_end(Stream& stream, Cycle date) {
     look_at(stream);
 }
 
-// A bank that sleeps is awake now, and asks again if it wants more.
+// Notes that a bank, if it slept, has been woken by the span: it asks again if it wants more.
 inline __attribute__((always_inline)) void SpanTurns::sent(const SpanReplay& spans,
                                                            bool was_empty) {
     if (was_empty && !spans.empty() && spans.reader()->blocked()) {

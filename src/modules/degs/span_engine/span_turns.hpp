@@ -9,8 +9,8 @@
 namespace degs {
 
 /// A Span Unit that takes rows of several tile streams in turn, one per cycle, all for one bank,
-/// where rows come drawn. Dates and counts are those of SpanPool, which does the same for all other
-/// designs and in strict mode.
+/// where rows come with outcomes. Dates and counts are those of SpanPool, which does the same for
+/// all other designs and in strict mode.
 ///
 /// Which row it takes in a cycle depends on what is in every lane and on every place of the
 /// crossbar, so it goes on only while all of that is known. It works when the bank asks, when a
@@ -21,9 +21,9 @@ public:
     SpanTurns(Process& unit, const std::vector<SpanReplay*>& streams, TileEnd& tiles);
 
     void pump() override;
-    /// The bank has taken all that it was sent, and wants more.
+    /// A bank calls this when it has taken all that it was sent, and wants more.
     Cycle ask() override;
-    /// The bank has taken an item of a full ring.
+    /// A bank has taken an item of a full ring, so that earlier answers no longer hold.
     void has_room() { asked_at_ = 0; }
     /// True if somebody waits for what follows from a row of this lane.
     bool waits_for(const SpanReplay& lane) const {

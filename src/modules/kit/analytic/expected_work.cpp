@@ -18,7 +18,7 @@ constexpr std::size_t kManyTiles = 3000;
 /// Tiles that a worker takes at a time; a clock starts afresh with them.
 constexpr std::size_t kRun = 128;
 
-/// One block of rows in so many.
+/// How many blocks of rows there are for each one that is sampled.
 int blocks_apart(const FrameWorkload& frame, const AnalyticModel::Blocks& blocks,
                  const EntrySizes& sizes, std::size_t tiles) {
     const auto entries = static_cast<double>(frame.tile_pairs());

@@ -27,7 +27,8 @@ struct JobTile {
     bool last_of_frame = false;
     bool passed = false; ///< sorted and fetched; its list is not asked for again
 
-    // The part inside the image, which is drawn; the list and the rows are those of the whole tile.
+    // The part inside the image, which is the one that is rendered. The list and the numbers of
+    // rows are those of the whole tile.
     PixelRange columns() const { return image_columns().relative_to(-x); } ///< of the raster
     PixelRange rows() const { return image_rows().relative_to(-y); }       ///< of the raster
     PixelRange image_columns() const { return {cut_left, width - 1 - cut_right}; } ///< of the tile

@@ -98,7 +98,8 @@ public:
     const Stats& stats() const { return stats_; }
     /// Pixels of its share that it reads out per cycle at most.
     int pixels_per_cycle() const { return std::max(1, config_.readout_pixels / share_.row_stride); }
-    /// Reads the tiles where they are drawn; before the simulation starts.
+    /// Reads the pixels of tiles from `source` in place of the data path; before the simulation
+    /// starts.
     void read_from(PixelSource& source) { source_ = &source; }
     /// Dates at which each frame's last pixel of this share was in memory.
     const KeptList<Cycle>& frames_written() const { return frames_written_; }

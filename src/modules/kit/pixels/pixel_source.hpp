@@ -6,7 +6,8 @@
 
 namespace degs {
 
-/// Pixels of tiles that are drawn elsewhere than in the contexts of the data path.
+/// Where a Pixel Buffer reads finished pixels if a functional model (modules/degs/functional) has
+/// them: its contexts of the data path are not those of the timed blocks.
 class PixelSource {
 public:
     PixelSource() = default;
@@ -14,10 +15,11 @@ public:
     PixelSource& operator=(const PixelSource&) = delete;
     virtual ~PixelSource() = default;
 
-    /// The first `count` pixels of a row whose splats have all been blended, or whose tile has
-    /// ended.
+    /// Reads the first `count` pixels of a row whose splats have all been blended, or whose tile
+    /// has ended.
     virtual void read_row(TileNumber number, int row, int count, PixelValue* pixels) = 0;
-    /// The row has been read out. A row may be outside of the image.
+    /// Tells that the row has been read out, so that its memory is free. Rows of a tile outside the
+    /// image are cleared, too.
     virtual void clear_row(TileNumber number, int row) = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that draws ahead, and tiles that other simulations have kept, give what drawing on
-// demand gives, whatever the simulation takes and when.
+// A functional model on a thread of its own, and traces that other simulations have kept, give what
+// rasterising on demand gives, whatever the simulation takes and when.
 #include "modules/degs/functional/functional_thread.hpp"
 
 #include <random>
@@ -24,7 +24,7 @@ namespace {
 
 using test::random_frame;
 
-/// Whether tiles are drawn on a thread; restores the number of threads.
+/// Sets whether the model has a thread of its own; restores the number of threads.
 struct HostThreads {
     explicit HostThreads(bool ahead) { limit_host_threads(ahead ? 2 : 1); }
     ~HostThreads() { limit_host_threads(static_cast<int>(std::thread::hardware_concurrency())); }
@@ -193,7 +193,7 @@ TEST_P(FunctionalOnThread, GivesWhatAnotherSimulationHasKept) {
         EXPECT_TRUE(shared.rows == demanded.rows);
         EXPECT_TRUE(shared.pixels == demanded.pixels);
         EXPECT_GT(bytes.used(), 1000U);
-        EXPECT_TRUE(seed == 1 || bytes.used() == used) << "a tile was drawn anew";
+        EXPECT_TRUE(seed == 1 || bytes.used() == used) << "a tile was rasterised anew";
         used = bytes.used();
     }
 }
