@@ -19,7 +19,7 @@ BEGIN, END = "<!-- benchmarks -->", "<!-- end of benchmarks -->"
 MOST_BYTES = 6 << 30
 SILENT_S = 8  # the program shows the progress of a step that takes more than two seconds
 # Counters that are shown beside ratio and limit, and what they mean.
-DETAILS = {"ns/fragment": "{:.1f} ns per fragment", "both processors": "{:.3g} with drawing",
+DETAILS = {"ns/fragment": "{:.1f} ns per fragment", "both processors": "{:.3g} with the functional model",
            "of the bus s": "{:.2f} s with the bus", "M accesses": "{:.2f} M accesses",
            "M requests/s": "{:.2f} M requests/s",
            "M lines/s": "{:.0f} M lines/s copied", "first s": "{:.2f} s", "second s": "{:.3f} s the second time"}

@@ -15,7 +15,7 @@ public:
         return {"projection", "sorting", "blending", "memory"};
     }
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
-    CoarseTile::Options drawing() const override { return {config_.tile_size, 1}; }
+    CoarseTile::Options coarse_options() const override { return {config_.tile_size, 1}; }
     Blocks blocks() const override { return {1, std::max(1, config_.tile_size / 8)}; }
     int engines() const override { return config_.arrays.count; }
     int sorters() const override { return config_.sorting.count; }
@@ -52,7 +52,7 @@ public:
             return !model_.config().arrays.skip_ended || tile.row_is_live(span.row);
         };
         const auto rows = std::count_if(tile.spans().begin(), tile.spans().end(), takes_slot);
-        rows_ += std::max(1.0, static_cast<double>(rows) * tile.rows_per_drawn());
+        rows_ += std::max(1.0, static_cast<double>(rows) * tile.row_weight());
     }
     TileCycles end(const CoarseTile& tile) override {
         TileCycles cycles = model_.front_end_cycles(tile, tile.walked());

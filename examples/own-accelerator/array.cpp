@@ -70,7 +70,7 @@ bool Array::start_tile() {
     }
     tile_ = &job_.tiles[number_];
     live_ = static_cast<int>(tile_->pixels());
-    live_in_row_.assign(live_in_row_.size(), tile_->drawn_columns().size());
+    live_in_row_.assign(live_in_row_.size(), tile_->image_columns().size());
     reported_ = false;
     return true;
 }
@@ -93,7 +93,7 @@ void Array::sweep(std::uint32_t splat) {
     const Cycle begin = self_.local();
     PixelTest test;
     test.splat = splat;
-    const PixelRange columns = tile_->drawn_columns();
+    const PixelRange columns = tile_->image_columns();
     test.mask = bits_between(columns.first, columns.last + 1);
     test.x = tile_->x;
     test.context = context_;

@@ -50,7 +50,7 @@ public:
     std::vector<TileRecord>& tiles() { return tiles_; }
 
 private:
-    // The kernel would make an error of its own of an exception.
+    // Keeps an exception for end(), because the kernel would turn it into an error of its own.
     FramePointer take() {
         note_tiles();
         FramePointer frame;
@@ -68,8 +68,8 @@ private:
     void note_tiles() {
         while (job_.recorder != nullptr && tiles_.size() < job_.tiles.size()) {
             const JobTile& tile = job_.tiles[tiles_.size()];
-            tiles_.push_back({tile.frame, tile.x, tile.y, tile.drawn_columns().size(),
-                              tile.drawn_rows().size(), tile.count, TileActivity()});
+            tiles_.push_back({tile.frame, tile.x, tile.y, tile.image_columns().size(),
+                              tile.image_rows().size(), tile.count, TileActivity()});
         }
     }
 

@@ -33,12 +33,12 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config, FrameSource f
 /// Measures a simulation from its construction on.
 class SimulationClock {
 public:
-    /// Sets sim_s, without the waits for the drawing, and drawing_s.
+    /// Sets sim_s, without the waits for the functional model, and functional_s.
     void stop(AcceleratorResult& result) const {
         result.sim_s = own_.seconds() - other_own_s_;
-        result.drawing_s = std::max(0.0, all_.seconds() - other_s_ - result.sim_s);
+        result.functional_s = std::max(0.0, all_.seconds() - other_s_ - result.sim_s);
     }
-    /// Leaves out what all threads do during `work`, which is no simulation.
+    /// Does `work`, which is no simulation, and leaves out the time that all threads spend on it.
     template <class Work>
     auto leave_out(const Work& work) {
         const CpuStopwatch all, own = CpuStopwatch::of_this_thread();

@@ -26,7 +26,8 @@ struct WorstPixel {
     std::string operation;      ///< empty if the replay has no error
     double explained = 0;       ///< error that the operation makes
     std::string flip;           ///< "stop rule", "span ends" or empty
-    // Products of matrices are not replayed: the last three stay empty.
+    // Where exponents are products of matrices, pixels are not replayed, and the last three stay
+    // empty.
 };
 
 /// One number set on one scene, or on one kind of single Gaussians. Values that a kind of
@@ -41,14 +42,14 @@ struct AccuracyRow {
     std::optional<double> psnr_db, ssim, flip, max_abs_error; ///< of images
     std::uint64_t nonfinite = 0; ///< values that are infinite or not a number
 
-    // Images only.
+    // Only images have these numbers.
     bool identical = false;      ///< to the reference; psnr_db is empty then
     std::string span_ends;       ///< that the image was made with
     std::uint64_t recounted = 0; ///< pixels with another number of updates than the reference's
     std::optional<WorstPixel> worst;
     std::string error_image; ///< file name, empty if none was asked for
 
-    // Single Gaussians only.
+    // Only single Gaussians have these numbers.
     std::optional<double> spread;       ///< standard deviation of the Gaussians' means
     std::optional<double> mean_to_fp16; ///< alpha_error_mean against fp16-direct
     std::uint64_t gaussians = 0;

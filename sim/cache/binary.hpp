@@ -79,9 +79,9 @@ public:
             good_ = false;
         }
     }
-    /// Nothing was missing.
+    /// True if no byte was missing.
     bool good() const { return good_; }
-    /// Nothing is left over either.
+    /// True if no byte was missing and none is left over.
     bool complete() const { return good_ && left_ == 0; }
 
 private:

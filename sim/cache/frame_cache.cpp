@@ -23,7 +23,7 @@ std::string variable(const char* name) {
     return value == nullptr ? "" : value;
 }
 
-/// Empty: none.
+/// The folder of this user's cache; empty if there is none.
 std::string users_folder() {
     if (std::getenv("DEGS_CACHE") != nullptr) {
         return variable("DEGS_CACHE");

@@ -26,7 +26,7 @@ public:
     /// cache. A folder that others own or may write is not used, with a warning. Throws InputError
     /// if DEGS_CACHE_BYTES is not a number.
     static FrameCache of_user();
-    /// One that keeps nothing.
+    /// A cache that keeps nothing.
     FrameCache() = default;
     explicit FrameCache(DiskCache disk);
 

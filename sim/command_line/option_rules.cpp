@@ -65,7 +65,8 @@ constexpr Row kRows[] = {
     {"run,soc", "--trace-step", kNeeds, "--trace", "divides the timeline"},
     // Studies.
     {"sweep", "--shard", kNotWith, "--collect --list --sort --slurm", "runs a part of the points"},
-    {"sweep", "--collect", kNotWith, "--list --slurm", "reads results that are in the folder already"},
+    {"sweep", "--collect", kNotWith, "--list --slurm",
+     "reads results that are in the folder already"},
     {"sweep", "--top", kNeeds, "--sort", "counts the designs of the table"},
     {"sweep", "--tasks --sbatch", kNeeds, "--slurm", "is for a job array"},
     {"explore", "--rungs --share --least", kNeeds, "--search=halving",

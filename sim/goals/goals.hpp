@@ -11,7 +11,7 @@
 
 namespace degs::sim {
 
-/// What becomes of the values of the views.
+/// How the values of all views become one.
 enum class Fold {
     Mean, ///< geometric
     Worst ///< the largest where small values are better, and the other way round

@@ -20,7 +20,7 @@ public:
     Reserve& operator=(const Reserve&) = delete;
 
     bool available() const { return pid_ > 0; }
-    /// In the copy, once it has been called: why. Else empty.
+    /// The reason for which the copy has been called; empty in the original process.
     const std::string& called_for() const { return reason_; }
     /// In the copy, once it has been called: processor seconds of the process that it replaces,
     /// from the start of that process. They belong to what a CpuStopwatch shows that was started

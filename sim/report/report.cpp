@@ -124,8 +124,9 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
     v.real("start_s", host.start_s, "s",
            "From the start of the command to that of the simulation proper.");
     v.real("sim_s", host.sim_s, "s",
-           "The simulation proper: its processor's time, and its waits for the thread that draws.");
-    v.real("drawing_s", host.drawing_s, "s", "What the thread that draws computed meanwhile.");
+           "The simulation proper: its processor's time, and its waits for the functional model.");
+    v.real("functional_s", host.functional_s, "s",
+           "What the thread of the functional model computed meanwhile.");
     v.real("run_s", host.run_s, "s",
            "Everything between the projected frames and their results, of all threads.");
     v.real("render_s", host.render_s, "s",

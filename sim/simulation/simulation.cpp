@@ -273,7 +273,7 @@ void put_host(const RunRequest& request, RunResult& result, double run_s) {
     result.host.fidelity = result.sampling ? "sampled" : name_of(request.fidelity);
     result.host.elaborate_s = result.accelerator.elaborate_s;
     result.host.sim_s = result.accelerator.sim_s;
-    result.host.drawing_s = result.accelerator.drawing_s;
+    result.host.functional_s = result.accelerator.functional_s;
     result.host.activations = result.accelerator.activations;
     result.host.run_s = run_s;
     result.host.peak_rss_bytes = peak_rss_bytes();

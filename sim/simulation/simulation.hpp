@@ -55,7 +55,7 @@ struct WorkloadFacts {
 /// between two runs.
 struct HostFacts {
     std::string fidelity;
-    double load_s = 0, workload_s = 0, elaborate_s = 0, start_s = 0, sim_s = 0, drawing_s = 0,
+    double load_s = 0, workload_s = 0, elaborate_s = 0, start_s = 0, sim_s = 0, functional_s = 0,
            run_s = 0, wall_s = 0;
     std::optional<double> render_s;
     std::uint64_t activations = 0; ///< see Timebase

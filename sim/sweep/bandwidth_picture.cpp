@@ -15,7 +15,7 @@ constexpr std::size_t kMostViews = 4;
 constexpr double kPanelHeight = 380;
 
 /// What is drawn in one colour: a design, or a part of its frame.
-struct DrawnLine {
+struct PlotLine {
     std::string label;
     std::vector<std::pair<double, double>> points; ///< GB/s, ms
     std::optional<double> unlimited_ms, enough_gb_per_s;
@@ -23,8 +23,8 @@ struct DrawnLine {
 
 using OptionalPart = std::optional<double> BandwidthPoint::*;
 
-DrawnLine part_of_frame(const BandwidthCurve& curve, const char* label, OptionalPart part) {
-    DrawnLine line;
+PlotLine part_of_frame(const BandwidthCurve& curve, const char* label, OptionalPart part) {
+    PlotLine line;
     line.label = label;
     for (const BandwidthPoint& point : curve.points) {
         if (point.*part) {
@@ -42,13 +42,13 @@ bool have_one_memory(const std::vector<BandwidthCurve>& curves) {
 }
 
 /// One design alone is split into its stages.
-std::vector<DrawnLine> drawn_lines(const std::vector<BandwidthCurve>& curves, std::size_t view) {
+std::vector<PlotLine> plot_lines(const std::vector<BandwidthCurve>& curves, std::size_t view) {
     const bool one_memory = have_one_memory(curves);
-    std::vector<DrawnLine> lines;
+    std::vector<PlotLine> lines;
     const BandwidthCurve* first = nullptr;
     for (const BandwidthCurve& curve : curves) {
         if (curve.view == view && lines.size() < kMostLines) {
-            DrawnLine line;
+            PlotLine line;
             line.label = (one_memory ? "" : curve.memory + ": ") + curve.label;
             for (const BandwidthPoint& point : curve.points) {
                 line.points.emplace_back(point.gb_per_s, point.latency_ms);
@@ -63,7 +63,7 @@ std::vector<DrawnLine> drawn_lines(const std::vector<BandwidthCurve>& curves, st
         for (const auto& [label, part] :
              {std::pair("preprocessing", OptionalPart(&BandwidthPoint::preprocessing_ms)),
               std::pair("blending", OptionalPart(&BandwidthPoint::blending_ms))}) {
-            DrawnLine line = part_of_frame(*first, label, part);
+            PlotLine line = part_of_frame(*first, label, part);
             if (!line.points.empty()) {
                 lines.push_back(std::move(line));
             }
@@ -84,7 +84,7 @@ void draw_dashes(Svg& svg, double x0, double y0, double x1, double y1, const std
 }
 
 /// Latency at a bandwidth between two points, by interpolation in the logarithms.
-double latency_at(const DrawnLine& line, double gb_per_s) {
+double latency_at(const PlotLine& line, double gb_per_s) {
     for (std::size_t i = 1; i < line.points.size(); ++i) {
         const auto& [b0, t0] = line.points[i - 1];
         const auto& [b1, t1] = line.points[i];
@@ -97,15 +97,15 @@ double latency_at(const DrawnLine& line, double gb_per_s) {
 
 /// The mark of the bandwidth that is enough, above the line; the legend has its number, because
 /// words would cross the marks of other lines.
-void draw_mark(Svg& svg, const DrawnLine& line, const char* colour, const LogAxis& x,
+void draw_mark(Svg& svg, const PlotLine& line, const char* colour, const LogAxis& x,
                const LogAxis& y) {
     const double at = x.at(*line.enough_gb_per_s);
     draw_dashes(svg, at, y.end, at, y.at(latency_at(line, *line.enough_gb_per_s)), colour);
 }
 
-void draw_panel(Svg& svg, const std::vector<DrawnLine>& lines, double top) {
+void draw_panel(Svg& svg, const std::vector<PlotLine>& lines, double top) {
     std::vector<double> bandwidths, latencies;
-    for (const DrawnLine& line : lines) {
+    for (const PlotLine& line : lines) {
         for (const auto& [gb_per_s, ms] : line.points) {
             bandwidths.push_back(gb_per_s);
             latencies.push_back(ms);
@@ -137,10 +137,10 @@ void draw_panel(Svg& svg, const std::vector<DrawnLine>& lines, double top) {
     svg.text(kPlotMargin, y.end - 8, "latency, ms, log scale", {kSmallText, kGrey, "start", false});
 }
 
-std::vector<std::string> legend_of(const std::vector<DrawnLine>& lines) {
+std::vector<std::string> legend_of(const std::vector<PlotLine>& lines) {
     std::vector<std::string> labels;
     labels.reserve(lines.size());
-    for (const DrawnLine& line : lines) {
+    for (const PlotLine& line : lines) {
         labels.push_back(line.label + (line.enough_gb_per_s
                                            ? ": " + three_digits(*line.enough_gb_per_s) + " GB/s"
                                            : ""));
@@ -149,10 +149,10 @@ std::vector<std::string> legend_of(const std::vector<DrawnLine>& lines) {
 }
 
 /// Says what the dashed lines of the panels mean.
-std::string explanation(const std::vector<std::vector<DrawnLine>>& panels) {
+std::string explanation(const std::vector<std::vector<PlotLine>>& panels) {
     bool across = false, upright = false;
-    for (const std::vector<DrawnLine>& lines : panels) {
-        for (const DrawnLine& line : lines) {
+    for (const std::vector<PlotLine>& lines : panels) {
+        for (const PlotLine& line : lines) {
             across |= line.unlimited_ms.has_value();
             upright |= line.enough_gb_per_s.has_value();
         }
@@ -173,16 +173,16 @@ std::string bandwidth_picture(const StudyPlan& plan, const Comparison& compariso
     const std::string title = "Latency over the bandwidth of memory" +
                               (have_one_memory(curves) ? ": " + curves.front().memory : "") +
                               (comparison.is_estimated() ? " (estimated)" : "");
-    std::vector<std::vector<DrawnLine>> panels;
+    std::vector<std::vector<PlotLine>> panels;
     for (std::size_t v = 0; v < std::min(comparison.views.size(), kMostViews); ++v) {
-        panels.push_back(drawn_lines(curves, v));
+        panels.push_back(plot_lines(curves, v));
     }
     Svg svg;
     svg.text(kPlotMargin, 26, title, {16, kInk, "start", true});
     svg.text(kPlotMargin, 46, explanation(panels), {kSmallText, kGrey, "start", false});
     double top = 60;
     for (std::size_t v = 0; v < panels.size(); ++v) {
-        const std::vector<DrawnLine>& lines = panels[v];
+        const std::vector<PlotLine>& lines = panels[v];
         if (lines.empty()) {
             continue;
         }

@@ -90,7 +90,7 @@ std::uint64_t fill_rows(const RenderJob& job, const FrameWorkload& frame, Number
                 job.path->rows_in_columns(record, tile.x, end).within(tile.rows());
             for (int y = rows.first; y <= rows.last; ++y) {
                 auto row = job.path->solve_row(record, y, tile.x, end, tile.y);
-                if (row && cut(*row, tile.drawn_columns())) {
+                if (row && cut(*row, tile.image_columns())) {
                     table.add(number_of(tile, frame), splat, row->y, row->x0, row->length);
                     pixels += row->length;
                 }

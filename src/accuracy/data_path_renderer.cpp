@@ -51,8 +51,8 @@ private:
             row = parsing_ ? path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0)
                            : row_of_box(*path_, splat, y, box_.x0, box_.x1 + 1, box_.y0);
         }
-        const PixelRange drawn = PixelRange{drawn_.x0, drawn_.x1}.relative_to(box_.x0);
-        return row && cut(*row, drawn) ? row : std::nullopt;
+        const PixelRange columns = PixelRange{image_box_.x0, image_box_.x1}.relative_to(box_.x0);
+        return row && cut(*row, columns) ? row : std::nullopt;
     }
 
     const FrameWorkload& work_;
@@ -63,8 +63,8 @@ private:
     std::vector<int> live_in_row_; ///< pixels that have not ended
     std::vector<PixelValue> row_;
     int live_ = 0;
-    PixelBox box_;   ///< the tile's pixels
-    PixelBox drawn_; ///< those in the image
+    PixelBox box_;       ///< the tile's pixels
+    PixelBox image_box_; ///< those in the image
 };
 
 bool DataPathRenderer::TileBlender::blend(int column, int row) {
@@ -76,12 +76,12 @@ bool DataPathRenderer::TileBlender::blend(int column, int row) {
     }
     const TileGrid grid = work_.grid();
     box_ = grid.pixels_of(tile);
-    drawn_ = grid.drawn_of(tile);
+    image_box_ = grid.image_pixels_of(tile);
     for (int y = 0; y < work_.tile_size; ++y) {
         path_->begin_row(0, y);
     }
-    std::fill(live_in_row_.begin(), live_in_row_.end(), drawn_.width());
-    live_ = drawn_.width() * drawn_.height();
+    std::fill(live_in_row_.begin(), live_in_row_.end(), image_box_.width());
+    live_ = image_box_.width() * image_box_.height();
     for (; splat != end && live_ > 0; ++splat) {
         blend_splat(base_ + *splat);
     }
@@ -92,7 +92,7 @@ void DataPathRenderer::TileBlender::blend_splat(std::uint32_t splat) {
     const PixelRange met = whole_             ? PixelRange{box_.y0, box_.y1}
                            : rows_in_columns_ ? path_->rows_in_columns(splat, box_.x0, box_.x1 + 1)
                                               : path_->rows(splat);
-    const PixelRange rows = met.within({drawn_.y0, drawn_.y1});
+    const PixelRange rows = met.within({image_box_.y0, image_box_.y1});
     for (int y = rows.first; y <= rows.last; ++y) {
         if (live_in_row_[y - box_.y0] == 0) {
             continue;
@@ -126,10 +126,10 @@ void DataPathRenderer::TileBlender::blend_span(const RowSpan& span) {
 }
 
 void DataPathRenderer::TileBlender::write(Image& image, int x, int y) {
-    const PixelRange columns = PixelRange{drawn_.x0, drawn_.x1}.relative_to(box_.x0);
-    for (int row = drawn_.y0; row <= drawn_.y1; ++row) {
+    const PixelRange columns = PixelRange{image_box_.x0, image_box_.x1}.relative_to(box_.x0);
+    for (int row = image_box_.y0; row <= image_box_.y1; ++row) {
         path_->read_row(0, row - box_.y0, columns.last + 1, row_.data());
-        std::size_t at = image.at(drawn_.x0 - x, row - y);
+        std::size_t at = image.at(image_box_.x0 - x, row - y);
         for (int column = columns.first; column <= columns.last; ++column, ++at) {
             const PixelValue& pixel = row_[column];
             image.put(at, pixel.rgb, pixel.transmittance, pixel.updates);

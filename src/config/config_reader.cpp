@@ -179,7 +179,7 @@ void ConfigReader::note(const char* key, bool changed, const std::string& value)
     }
 }
 
-// A value, or one of a section.
+// True if a key, or a key below a section, was given a value in another way than by its default.
 bool ConfigReader::is_changed(const std::string& path) const {
     const auto next = changed_.lower_bound(path);
     return next != changed_.end() && (*next == path || next->rfind(path + ".", 0) == 0);

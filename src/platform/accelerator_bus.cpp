@@ -21,7 +21,7 @@ void word_to(std::uint32_t value, unsigned char* data) {
 
 } // namespace
 
-// One word, whole and aligned.
+// Checks that an access is to one word, whole and aligned.
 tlm::tlm_response_status AcceleratorCore::check_access(const tlm::tlm_generic_payload& payload) {
     if (!payload.is_read() && !payload.is_write()) {
         return tlm::TLM_COMMAND_ERROR_RESPONSE;
@@ -52,7 +52,7 @@ void AcceleratorCore::transport(tlm::tlm_generic_payload& payload, sc_core::sc_t
     payload.set_response_status(status);
 }
 
-// What a write does is seen from its date on; the values themselves are there at once.
+// Writes a register. The value can be read at once; what the write starts happens from its date on.
 tlm::tlm_response_status AcceleratorCore::write(std::uint32_t offset, std::uint32_t value,
                                                 const sc_core::sc_time& delay) {
     const RegisterInfo* const info = AcceleratorRegisters::find(offset);

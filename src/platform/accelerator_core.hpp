@@ -19,11 +19,12 @@ public:
     AcceleratorCore(Accelerator& shell, const AcceleratorConfig& config,
                     const AcceleratorOptions& options);
 
-    /// With the frequency of the bound clock, if any, from the end of elaboration on.
+    /// The configuration. From the end of elaboration on it has the frequency of the bound clock,
+    /// if there is one.
     const AcceleratorConfig& config() const { return *config_; }
     /// The frames that are kept, the last one included.
     const RenderJob& job() const { return job_; }
-    /// When nothing is left to happen, before the timeline is read.
+    /// Completes the timeline before it is read, once nothing is left to happen.
     void complete_timeline();
 
     // The shell forwards its callbacks and processes to these functions.

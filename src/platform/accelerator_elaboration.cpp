@@ -50,7 +50,8 @@ const AcceleratorOptions& AcceleratorCore::checked(const AcceleratorOptions& opt
     return options;
 }
 
-// Two halves of a cycle are the least that processes need.
+// The period of the accelerator's clock. It must have two units of kernel time at least, because
+// processes tell the two halves of a cycle apart.
 sc_core::sc_time AcceleratorCore::checked_period() const {
     const sc_core::sc_time period = ClockDomain(config_->clock_ghz).period();
     if (period.value() < 2) {
@@ -99,7 +100,7 @@ void AcceleratorCore::start_of_simulation() {
     }
 }
 
-// Booleans for reading, words for comparing with a driver's view.
+// Traces booleans, which people can read, and register words, to compare with what a driver sees.
 void AcceleratorCore::trace(sc_core::sc_trace_file* file) const {
     const std::string path = shell_.name();
     sc_core::sc_trace(file, lines_.busy, path + ".busy");

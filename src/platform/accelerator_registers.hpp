@@ -41,10 +41,11 @@ struct RegisterInfo {
     std::vector<RegisterValue> values{};
     std::uint32_t reset = 0; ///< value of each word before anything is written
 
-    /// The bits that exist.
+    /// A mask of the bits of the register that exist.
     std::uint32_t bits() const;
 };
-/// Ascending. Offsets in between are reserved: they read as 0, and writing them is an error.
+/// All registers, by ascending offset. Offsets in between are reserved: they read as 0, and writing
+/// them is an error.
 const std::vector<RegisterInfo>& register_map();
 
 /// The words behind the map, without time and bus.
@@ -55,11 +56,11 @@ public:
     void set_word(std::uint32_t offset, std::uint32_t value) { words_[offset / 4] = value; }
     std::uint32_t get(Register which) const { return word(offset_of(which)); }
     void set(Register which, std::uint32_t value) { set_word(offset_of(which), value); }
-    /// Where it is kept, for tracing.
+    /// The place where the low word of a register is kept, for tracing.
     const std::uint32_t& low_word(Register which) const { return words_[offset_of(which) / 4]; }
     std::uint64_t get_pair(Register which, std::uint32_t index = 0) const;
     void set_pair(Register which, std::uint64_t value);
-    /// A pair that holds an IEEE 754 double.
+    /// The value of a pair of registers that holds an IEEE 754 double.
     double get_double(Register which, std::uint32_t index = 0) const;
 
     /// The row that holds this word, or nullptr if the word is reserved.

@@ -16,7 +16,7 @@ constexpr std::uint64_t kRestInterval = 128;
 
 } // namespace
 
-// Registers show it at once; the rest follows at its date, see begin_stop().
+// Shows a stop in the registers at once. Everything else follows at its date, see begin_stop().
 void AcceleratorCore::request_stop(Stop why, const sc_core::sc_time& delay) {
     if (why == Stop::Reset) {
         registers_ = AcceleratorRegisters();
@@ -43,7 +43,8 @@ void AcceleratorCore::begin_stop() {
     work_.notify(sc_core::SC_ZERO_TIME);
 }
 
-// The last word that the platform may see of the frame is the answer to the last transaction.
+// Waits until all blocks rest and the last transaction is answered, so that the platform hears no
+// more of the frame afterwards.
 void AcceleratorCore::await_rest() {
     while (!gateway_.idle()) {
         sc_core::wait(gateway_.became_idle());

@@ -22,7 +22,7 @@ public:
     void await_turn(unsigned rank, sc_core::sc_time& delay);
     /// Turns the delay to an answer into what the stream sees, after await_turn().
     void settle(sc_core::sc_time& delay) const;
-    /// Nobody waits any more, until close().
+    /// Lets every access go out at once, until close() is called.
     void open();
     void close() { open_ = false; }
 

@@ -94,7 +94,8 @@ void AtRequester::enqueue(Access& waiter, unsigned rank, const Payload& access, 
     send();
 }
 
-// The answer of the access: that of its first part that failed.
+// Releases the parts of an access and returns its response: that of the first part that failed, or
+// OK if none did.
 tlm::tlm_response_status AtRequester::release(Access& waiter) {
     tlm::tlm_response_status status = tlm::TLM_OK_RESPONSE;
     for (Transaction* part : waiter.parts) {
@@ -115,7 +116,7 @@ void AtRequester::end(Access& waiter) {
     idle_.push_back(&waiter);
 }
 
-// Held by the access until its response has been read.
+// Makes the transaction of a piece. The access holds it until its response has been read.
 AtRequester::Transaction& AtRequester::make(const Payload& access, unsigned char* data,
                                             const Piece& piece) {
     if (free_.empty()) {
@@ -160,7 +161,8 @@ void AtRequester::detach() {
     }
 }
 
-// The oldest date goes first, of equal ones the lowest rank. Null: nobody may.
+// The queue whose transaction goes out next: the oldest date first, of equal ones the lowest rank.
+// Null if no transaction may go out.
 AtRequester::Queue* AtRequester::next_queue() {
     Queue* next = nullptr;
     for (Queue& queue : queues_) {
@@ -228,7 +230,7 @@ void AtRequester::end_request(const sc_core::sc_time& delay) {
     request_over_.notify(delay);
 }
 
-// Ends a request phase that is still open, too, and that at once.
+// Takes the response of a transaction. If its request phase is still open, that ends here, too.
 void AtRequester::answer(Transaction& transaction, bool by_phase, const sc_core::sc_time& delay) {
     if (requesting_ == &transaction) {
         request_over_.cancel();

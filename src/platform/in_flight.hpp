@@ -14,7 +14,7 @@ namespace degs {
 /// others end after its date.
 class InFlight {
 public:
-    /// 0: no bound.
+    /// Bounds the accesses in flight to `most`; 0 means no bound.
     explicit InFlight(unsigned most) : most_(most) {}
 
     bool bounded() const { return most_ != 0; }
@@ -26,7 +26,8 @@ public:
         }
         return ends_.size() < most_ ? date : ends_.top();
     }
-    /// One has gone out whose answer is dated `end`; admit() has returned its own date.
+    /// Adds an access that has gone out at the date which admit() returned, and is answered at
+    /// `end`.
     void add(const sc_core::sc_time& end) { ends_.push(end); }
 
 private:

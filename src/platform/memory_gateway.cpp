@@ -105,7 +105,8 @@ void MemoryGateway::note(tlm::tlm_response_status status) {
     }
 }
 
-// The stream goes on; the answer comes when the last piece is answered.
+// Starts an access without waiting for it, so that the stream goes on. The answer comes when the
+// last piece is answered.
 std::shared_ptr<LateAnswer> MemoryGateway::start(int port,
                                                  const tlm::tlm_generic_payload& payload) {
     auto answer = std::make_shared<LateAnswer>();

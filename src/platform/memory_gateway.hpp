@@ -49,7 +49,7 @@ public:
     double peak_gb_per_s() const override { return 0; }
     std::vector<std::string> explain() const override;
 
-    /// Counters of all streams.
+    /// The sums of the counters of all streams.
     MemoryTraffic total() const;
 
     /// Performs an access that belongs to no stream. It is not counted and keeps its response. Must
@@ -73,7 +73,7 @@ public:
     void detach();
     void attach();
     bool detached() const { return detached_; }
-    /// No access of a process is under way.
+    /// True if no access of a process is under way.
     bool idle() const { return under_way_ == 0; }
     /// Notified when idle() becomes true while detached.
     const sc_core::sc_event& became_idle() const { return became_idle_; }

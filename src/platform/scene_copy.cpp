@@ -64,7 +64,8 @@ std::uint64_t read_debug(MemoryGateway& memory, std::uint64_t address, unsigned 
     return bytes;
 }
 
-// Grows as it is read, because memory may hold less than a wrong count promises.
+// Reads an array step by step, and lets it grow only as it is read, because memory may hold less
+// than a wrong count promises.
 tlm::tlm_response_status read(MemoryGateway& memory, std::uint64_t address, std::uint64_t bytes,
                               std::vector<unsigned char>& out) {
     out.clear();

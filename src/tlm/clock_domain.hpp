@@ -36,10 +36,10 @@ public:
     /// Ends hurry(): the next edge of the clock, which is returned, begins a cycle later than every
     /// date so far. Only while settled().
     sc_core::sc_time resume();
-    /// No process sleeps to a date.
+    /// True if no process sleeps to a date.
     bool settled() const;
 
-    /// As those of ClockDomain.
+    /// ClockDomain says what these functions return.
     const sc_core::sc_time& period() const { return period_; }
     sc_core::sc_time at(Cycle date) const { return place(date, 0); }
     sc_core::sc_time half_after(Cycle date) const { return place(date, pace_ / 2); }
@@ -64,7 +64,7 @@ class ClockDomain {
 public:
     /// `gigahertz` > 0; the period is rounded to the kernel's time resolution. Cycle 0 begins at 0.
     explicit ClockDomain(double gigahertz) : period_(1.0 / gigahertz, sc_core::SC_NS) {}
-    /// Lies where `mapping`, which must outlive it, says.
+    /// The cycles lie where `mapping` says, which must outlive the domain.
     explicit ClockDomain(ClockMapping& mapping) : period_(mapping.period()), mapping_(&mapping) {}
 
     /// nullptr: cycles are multiples of the period for ever.
@@ -76,14 +76,14 @@ public:
         }
         return sc_core::sc_time::from_value(date * period_.value());
     }
-    /// Half a cycle after `date`. Everything dated up to `date` has happened by then.
+    /// The time half a cycle after `date`. Everything dated up to `date` has happened by then.
     sc_core::sc_time half_after(Cycle date) const {
         if (mapping_ != nullptr) {
             return mapping_->half_after(date);
         }
         return sc_core::sc_time::from_value(date * period_.value() + period_.value() / 2);
     }
-    /// half_after(date) <= time.
+    /// True if half_after(date) <= time.
     bool past_half(Cycle date, const sc_core::sc_time& time) const {
         return mapping_ != nullptr ? mapping_->half_after(date) <= time
                                    : date * period_.value() + period_.value() / 2 <= time.value();

@@ -16,9 +16,9 @@ namespace degs {
 class LateAnswer {
 public:
     bool known() const { return known_; }
-    /// Only if known().
+    /// The date at which the answer came. Only if known().
     Cycle date() const { return date_; }
-    /// It has come. Tells all who want to know, once.
+    /// Notes that the answer has come, and tells all who want to know, once.
     void come(Cycle date) {
         date_ = date;
         known_ = true;
@@ -61,7 +61,7 @@ public:
             late_->on_come(tell);
         }
     }
-    /// When both are complete.
+    /// The completion of both accesses together: the later one.
     friend Completion latest(const Completion& a, const Completion& b) {
         return a.late_ == nullptr && b.late_ == nullptr ? Completion(std::max(a.date_, b.date_))
                                                         : both(a, b);

@@ -124,7 +124,7 @@ public:
     }
     /// The cell that put_staged() hands over. The writer fills it in place after reserve().
     T& staged() { return tail_->value; }
-    /// After reserve(), at the same date or later.
+    /// Writes the staged item, at the date of reserve() or later.
     void put_staged(Process& writer) { commit(writer, 0); }
     /// The oldest item; moves the reader to the date from which it may be read.
     T get(Process& reader) {
@@ -144,8 +144,8 @@ public:
     }
     /// The oldest item without removing it. Only if not empty().
     const T& front() const { return front_->value; }
-    /// For arrive(), and for a reader that has waited since `ready` for the oldest item in another
-    /// way.
+    /// Counts how late the oldest item is, for arrive() and for a reader that has waited for it
+    /// since `ready` in another way.
     void count_late(Cycle ready) {
         const Cycle from = std::max(ready, front_->written + forward_latency_);
         if (stats_.items != 0 && front_->date > from) {

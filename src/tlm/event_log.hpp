@@ -17,7 +17,7 @@ namespace degs {
 /// groups of numbers. The log is kept in memory: about twenty bytes per event.
 class EventLog {
 public:
-    /// A number; with `parts` a list of groups of them.
+    /// A number of an event; with `parts`, a list of groups of numbers, one for each part.
     struct Field {
         std::string name;
         std::vector<std::string> parts;
@@ -37,7 +37,7 @@ public:
 
     const std::vector<Kind>& kinds() const { return kinds_; }
     const std::vector<std::pair<std::string, std::int64_t>>& facts() const { return facts_; }
-    /// The events.
+    /// The events as bytes, in the form of docs/block-log.md.
     const std::string& bytes() const { return bytes_; }
 
 private:
@@ -53,7 +53,7 @@ struct LoggedSide {
     std::size_t kind = 0;
     std::int64_t port = 0;
 
-    /// An item is taken at `now` that could be read from `readable` on.
+    /// Logs that an item is taken at `now` that could be read from `readable` on.
     void begin_take(Cycle readable, Cycle now) const {
         log->begin(kind, now);
         log->put(port);
@@ -125,8 +125,8 @@ public:
     LoggedBlock(const LoggedBlock&) = delete;
     LoggedBlock& operator=(const LoggedBlock&) = delete;
     virtual ~LoggedBlock() = default;
-    /// Before the simulation starts. Everything is logged in strict mode; in exact mode what is
-    /// drawn ahead passes without messages.
+    /// Has the block write to `log`; before the simulation starts. Everything is logged in strict
+    /// mode; in exact mode rows that are replayed pass without messages.
     virtual void log_to(EventLog& log) = 0;
 };
 

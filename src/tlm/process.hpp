@@ -111,12 +111,12 @@ public:
     ProcessTrack* track() const { return track_; }
     /// Sleeps until kernel time has reached the local date.
     void sync();
-    /// No more items will ever come from this process.
+    /// Tells that no more items will ever come from this process.
     void finish();
 
     // For ClockMapping.
     bool sleeps_to_date() const { return to_date_; }
-    /// The date to which the process sleeps lies at another time now.
+    /// Lets the process sleep to its date anew, because that lies at another kernel time now.
     void sleep_anew() {
         if (to_date_) {
             wake_.notify(sc_core::SC_ZERO_TIME);
@@ -165,7 +165,7 @@ public:
         works_asked_ = true;
         inputs_ = std::move(inputs);
     }
-    /// This process reads what an asked body writes.
+    /// Tells that this process reads what an asked body writes.
     void ask_writers() { asks_ = true; }
     /// The asked body works, so that nothing is known of it but its date.
     void go() { input_count_ = 0; }

@@ -16,14 +16,14 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// counts.
 struct Times {
     double sim_s = kNever, render_s = kNever;
-    double all_s = kNever; ///< of the simulation and of the thread that draws
+    double all_s = kNever; ///< of the simulation and of the functional model's thread
     double fragments = 0;  ///< of the design
     double accesses = 0;   ///< of 64 B to the channels of an LPDDR5 memory
 
     void add(const nlohmann::json& report) {
         const nlohmann::json& host = report["host"];
         sim_s = std::min(sim_s, host["sim_s"].get<double>());
-        all_s = std::min(all_s, host["sim_s"].get<double>() + host["drawing_s"].get<double>());
+        all_s = std::min(all_s, host["sim_s"].get<double>() + host["functional_s"].get<double>());
         if (host["render_s"].is_number()) {
             render_s = std::min(render_s, host["render_s"].get<double>());
         }

@@ -119,7 +119,7 @@ struct SharedPlatform {
     std::uint64_t cycles = 0;
 };
 
-/// The same frame on three platforms.
+/// One frame runs on three platforms.
 struct ThreePacings {
     ThreePacings(const std::string& name, const GaussianCloud& cloud, const Camera& camera)
         : exact("exact" + name, kFirst, Pacing::Exact, cloud, camera),

@@ -139,7 +139,7 @@ private:
         }
     }
 
-    /// Some milliseconds in this process.
+    /// Estimates a design in this process, because that takes only some milliseconds.
     SpeedOutcome estimated(const SpeedDesign& design) const {
         const std::unique_ptr<AnalyticModel> model = analytic_model_of(design.config);
         const CpuStopwatch clock;

@@ -17,7 +17,7 @@ public:
         return {"projection", "sorting", "generation", "blending", "memory"};
     }
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
-    CoarseTile::Options drawing() const override { return {config_.tile_size, 1}; }
+    CoarseTile::Options coarse_options() const override { return {config_.tile_size, 1}; }
     // A tile waits for its slowest row, so that many rows must be looked at.
     Blocks blocks() const override { return {1, std::max(1, config_.tile_size / 16)}; }
     int engines() const override { return config_.engines.count; }
@@ -82,7 +82,7 @@ private:
     const Config::Engines& engines_;
     std::vector<RowPe> pes_;
     double generated_ = 0, slots_ = 0, busy_ = 0;
-    double entries_ = 0; ///< of the queues, in the drawn rows
+    double entries_ = 0; ///< of the queues of the sampled rows
 };
 
 std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload&) const {
@@ -104,7 +104,7 @@ void Clock::splat(const CoarseTile& tile) {
         if (!tile.cell_is_live(span.row, 0)) {
             continue;
         }
-        solved += tile.rows_per_drawn();
+        solved += tile.row_weight();
         RowPe& pe = pes_[span.row % pes_.size()];
         double& place = pe.loaded[pe.next];
         const double at = std::max(generated_ + cycles_of(solved) - 1, place);
@@ -126,8 +126,8 @@ TileCycles Clock::end(const CoarseTile& tile) {
         last = std::max(last, pe.free);
     }
     TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
-    cycles.counts[Analytic::kEntries] = entries_ * tile.rows_per_drawn();
-    cycles.slots = slots_ * tile.rows_per_drawn();
+    cycles.counts[Analytic::kEntries] = entries_ * tile.row_weight();
+    cycles.slots = slots_ * tile.row_weight();
     cycles.busy[Analytic::kGeneration] = busy_ / model_.engines();
     cycles.busy[Analytic::kBlending] = cycles.slots / model_.pes();
     cycles.time = std::max(last, cycles.time);

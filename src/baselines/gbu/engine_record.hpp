@@ -18,18 +18,18 @@ public:
     EngineRecord(SlotPart* part, TimeSeries* busy, std::size_t pes)
         : part_(part), busy_(busy), accounted_(pes, kNever) {}
 
-    /// Nobody had a tile in the cycles [from, to), because no context was free.
+    /// Records that the engine had no tile in the cycles [from, to), because no context was free.
     void block(Cycle from, Cycle to) {
         if (part_ != nullptr) {
             blocked_.emplace_back(from, to);
         }
     }
-    /// A Row PE executes an entry in the cycles [from, to).
+    /// Records that a Row PE executes an entry in the cycles [from, to).
     void begin_entry(TileNumber tile, std::size_t pe, Cycle from, Cycle to);
-    /// Pixels of the entry from `date` on, one per cycle.
+    /// Records the pixels of the entry, one per cycle from `date` on.
     void pixels(TileNumber tile, Cycle date, const BlendOutcome& outcome);
     void end_probe(TileNumber tile, Cycle date);
-    /// When the run is over: up to `end`, the engine's last slot, some PEs had no work.
+    /// Records at the end of the run that some PEs had no work up to `end`, the engine's last slot.
     void close(TileNumber tile, Cycle end);
 
 private:

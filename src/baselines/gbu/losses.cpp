@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves the losses of GBU.
+// Names the keys that would reduce each loss of PE-cycles of a GBU design.
 #include "baselines/gbu/config.hpp"
 
 namespace degs::gbu {

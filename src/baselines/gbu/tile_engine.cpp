@@ -99,7 +99,7 @@ void TileEngine::start_tile(TileNumber number) {
     number_ = number;
     tile_ = &job_.tiles[number];
     take_context();
-    const PixelRange rows = tile_->drawn_rows();
+    const PixelRange rows = tile_->image_rows();
     live_rows_ = rows.size();
     started_ = self_.local();
     last_end_ = 0;
@@ -107,7 +107,7 @@ void TileEngine::start_tile(TileNumber number) {
     reported_ = false;
     for (int row = 0; row < job_.tile_size; ++row) {
         const bool inside = rows.holds(row);
-        rows_[row] = {inside ? kNever : 0, inside ? tile_->drawn_columns().size() : 0};
+        rows_[row] = {inside ? kNever : 0, inside ? tile_->image_columns().size() : 0};
     }
 }
 
@@ -124,7 +124,7 @@ void TileEngine::take_context() {
     }
 }
 
-// The rest of an abandoned tile is thrown away, a chunk per cycle.
+// Works on the present tile. Once it is abandoned, its remaining chunks are dropped, one per cycle.
 void TileEngine::work() {
     const std::uint32_t first_splat = tile_->first_splat;
     const FrameWorkload& frame = job_.frame_of(*tile_);
@@ -258,7 +258,8 @@ void TileEngine::row_ended(Row& row, Cycle slot) {
     }
 }
 
-// No pixel changes any more: what may still be executed finds none alive.
+// Reports the tile as ended, because no pixel changes any more: entries that are still executed
+// find none alive.
 void TileEngine::report_tile(Cycle last_slot) {
     const Cycle written = last_slot + config_.row_pe_latency;
     const bool all_ended = live_rows_ == 0;
@@ -267,7 +268,7 @@ void TileEngine::report_tile(Cycle last_slot) {
     reported_ = true;
 }
 
-// The barrier: all Row PEs wait for the last one.
+// Ends a tile. This is a barrier: all Row PEs wait for the last one.
 void TileEngine::finish_tile() {
     const Cycle generated = self_.local();
     Cycle end = generated;

@@ -31,7 +31,7 @@ public:
     }
     PreparationCycles preparation(const FrameWorkload& frame) const override;
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
-    CoarseTile::Options drawing() const override {
+    CoarseTile::Options coarse_options() const override {
         return {config_.array.window, config_.array.window};
     }
     // Rows of windows; four rows of pixels tell which windows a splat meets.
@@ -117,7 +117,7 @@ WindowMask Clock::visited(const CoarseTile& tile, int row, const CoarseSpan* spa
             visited |= windows_of({spans->row, spans->last + 1, spans->last + 1});
         }
     }
-    for (const int tip : {tile.first_row(), tile.last_row()}) { // between drawn rows
+    for (const int tip : {tile.first_row(), tile.last_row()}) { // may lie between sampled rows
         if (tip / side_ == row) {
             visited |= windows_of(tile.span_of(tip));
         }
@@ -161,7 +161,7 @@ TileCycles Clock::end(const CoarseTile& tile) {
     const double gaussian = config.traffic.list_entry_bytes + alone(records.shape_size()) +
                             alone(records.sh_size(frame_.sh_degree));
     TileCycles cycles;
-    cycles.slots = windows_ * tile.blocks_per_drawn() * config.array.pes();
+    cycles.slots = windows_ * tile.block_weight() * config.array.pes();
     cycles.fragments = tile.fragments();
     cycles.written = tile.pixels() * config.traffic.pixel_bytes;
     cycles.bytes = walked * gaussian + tile.pixels() * config.traffic.pixel_bytes;

@@ -12,7 +12,7 @@ namespace degs::gcc {
 /// One bit per window of a row of windows, leftmost first.
 using WindowMask = std::uint64_t;
 
-/// Bits first .. last (inclusive).
+/// The mask of the windows first to last.
 inline WindowMask windows_between(int first, int last) {
     return ((WindowMask{2} << last) - 1) & ~((WindowMask{1} << first) - 1);
 }
@@ -31,10 +31,10 @@ public:
         PixelRange columns;
     };
 
-    /// view_size <= kMaxWindows * side.
+    /// The view is `view_size` px wide, at most kMaxWindows * side.
     Footprint(int view_size, int side);
 
-    /// Replaces the previous splat.
+    /// Solves a splat, which replaces the previous one.
     void solve(const DataPath& path, std::uint32_t splat, const JobTile& view);
 
     /// Rows with valid pixels, top to bottom.

@@ -41,7 +41,8 @@ public:
     };
     struct Stats {
         Cycle busy = 0;
-        /// What `busy` would be if the other rate had no limit; not numbers of results.
+        /// What `busy` would be if the other of the two rates had no limit. Reports do not show
+        /// them.
         Cycle mean_cycles = 0, entry_cycles = 0;
         std::uint64_t gaussians = 0, entries_written = 0, view_entries = 0;
         void describe(StatsVisitor& v) const {
@@ -85,7 +86,7 @@ private:
     void group_chunk(std::uint32_t frame, const Chunk& chunk);
     void regroup(std::uint32_t f);
     void finish_lists(std::uint32_t f);
-    /// By view; if not, by group of the whole image.
+    /// True if lists are made per view; false if they are made per group of the whole image.
     bool by_view(const FrameWorkload& frame) const {
         return config_.lists == Lists::Direct || frame.tiles() == 1;
     }

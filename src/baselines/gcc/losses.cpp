@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves the losses of GCC.
+// Names the keys that would reduce each loss of PE-cycles of a GCC design.
 #include "baselines/gcc/config.hpp"
 
 namespace degs::gcc {

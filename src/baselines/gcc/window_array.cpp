@@ -110,7 +110,7 @@ void WindowArray::start_view(TileNumber number) {
     first_entries_ = views_ == 0 ? view.count : first_entries_;
     number_ = number;
     context_ = context_in_turn(views_, share_.contexts, share_.first_context);
-    const PixelRange columns = view.drawn_columns(), rows = view.drawn_rows();
+    const PixelRange columns = view.image_columns(), rows = view.image_rows();
     columns_ = {footprint_.window_of(columns.first), footprint_.window_of(columns.last)};
     rows_ = {footprint_.window_of(rows.first), footprint_.window_of(rows.last)};
     live_pixels_ = columns.size() * rows.size();
@@ -208,13 +208,13 @@ void WindowArray::note_ended(int y, int column, std::uint32_t ended) {
 }
 
 Traversal::Window WindowArray::centre_window(const ProjectedSplat& splat) const {
-    const auto clamped = [&](double centre, int begin, const PixelRange& drawn) {
+    const auto clamped = [&](double centre, int begin, const PixelRange& inside) {
         const double pixel = std::floor(centre + 0.5) - begin;
-        return footprint_.window_of(index_within(pixel, drawn.first, drawn.last));
+        return footprint_.window_of(index_within(pixel, inside.first, inside.last));
     };
     Traversal::Window window;
-    window.row = clamped(splat.mu_y, view_->y, view_->drawn_rows());
-    window.column = clamped(splat.mu_x, view_->x, view_->drawn_columns());
+    window.row = clamped(splat.mu_y, view_->y, view_->image_rows());
+    window.column = clamped(splat.mu_x, view_->x, view_->image_columns());
     return window;
 }
 

@@ -19,7 +19,7 @@ public:
         return {"projection", "sorting", "blending", "memory"};
     }
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
-    CoarseTile::Options drawing() const override {
+    CoarseTile::Options coarse_options() const override {
         return {config_.array.side(), config_.array.side()};
     }
     // Rows only tell when a sub-tile is done; two of each are enough.

@@ -121,7 +121,7 @@ void LockstepArray::start_tile(TileNumber number) {
     if (config_.subtile_skip == SubtileTest::Obb) {
         boxes_.include(tile_->frame);
     }
-    inside_ = grid_.holding(tile_->drawn_columns(), tile_->drawn_rows());
+    inside_ = grid_.holding(tile_->image_columns(), tile_->image_rows());
     live_subtiles_ = 0;
     for (int s = 0; s < grid_.count(); ++s) {
         const PixelBox box = pixels_of(s);
@@ -136,12 +136,12 @@ void LockstepArray::start_tile(TileNumber number) {
 PixelBox LockstepArray::pixels_of(int subtile) const {
     const int side = grid_.side();
     const int x = subtile % grid_.per_side() * side, y = subtile / grid_.per_side() * side;
-    const PixelRange columns = tile_->drawn_columns(), rows = tile_->drawn_rows();
+    const PixelRange columns = tile_->image_columns(), rows = tile_->image_rows();
     return PixelBox{x, y, x + side - 1, y + side - 1}.within(
         {columns.first, rows.first, columns.last, rows.last});
 }
 
-/// False if the tile stops before its next chunk is there.
+/// Waits for the next chunk of the tile. False if the tile stops before the chunk is there.
 bool LockstepArray::await_chunk(DatedFifo<SplatChunk>& source) {
     Cycle stop = kNever;
     if (live_subtiles_ == 0) {
@@ -222,7 +222,7 @@ SubtileMask LockstepArray::tested(std::uint32_t splat) const {
     return mask;
 }
 
-/// Does a slot from `begin` on see every sub-tile done?
+/// True if a slot from `begin` on finds every sub-tile done.
 bool LockstepArray::all_done(Cycle begin) {
     for (int s = 0; s < grid_.count(); ++s) {
         if ((inside_ >> s & 1U) != 0 &&
@@ -267,7 +267,7 @@ void LockstepArray::pass(int subtile, std::uint32_t splat, Cycle at) {
     }
 }
 
-/// All lanes at their pixels of one sub-tile; returns how many of them ended.
+/// Lets all lanes evaluate their pixels of a sub-tile. Returns how many of these ended.
 int LockstepArray::evaluate(int subtile, std::uint32_t splat) {
     const PixelBox box = pixels_of(subtile);
     const int width = box.width();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves the losses of GSCore.
+// Names the keys that would reduce each loss of PE-cycles of a GSCore design.
 #include "baselines/gscore/config.hpp"
 
 namespace degs::gscore {

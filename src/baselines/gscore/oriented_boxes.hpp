@@ -16,7 +16,7 @@ namespace degs::gscore {
 class OrientedBoxes {
 public:
     explicit OrientedBoxes(const RenderJob& job) : job_(job) {}
-    /// Makes those of all frames up to this one that the job still has.
+    /// Makes the boxes of all frames up to this one that the job still has.
     void include(std::uint32_t frame) {
         frames_ = std::max(frames_, static_cast<std::uint32_t>(job_.frames.first()));
         for (; frames_ <= frame; ++frames_) {

@@ -18,7 +18,9 @@ public:
         return {"projection", "sorting", "systolic_arrays", "vector_units", "memory"};
     }
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
-    CoarseTile::Options drawing() const override { return {config_.tile_size, config_.tile_size}; }
+    CoarseTile::Options coarse_options() const override {
+        return {config_.tile_size, config_.tile_size};
+    }
     // Rows only tell when the tile has ended.
     Blocks blocks() const override { return {1, std::max(1, config_.tile_size / 2)}; }
     int engines() const override { return config_.cores.count; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves the losses of ORANGE.
+// Names the keys that would reduce each loss of PE-cycles of an ORANGE design.
 #include <algorithm>
 
 #include "baselines/orange/config.hpp"

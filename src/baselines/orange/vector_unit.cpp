@@ -84,7 +84,7 @@ bool VectorUnit::blends_next() {
     return false;
 }
 
-/// False if nothing follows and nothing is on its way.
+/// Takes a chunk of splats. False if no chunk follows and no product is on its way.
 bool VectorUnit::take_chunk() {
     if (input_over_) {
         return false;
@@ -151,7 +151,7 @@ void VectorUnit::start_tile(TileNumber number) {
     number_ = number;
     tile_ = &job_.tiles[number];
     context_ = first_context_ + context_in_turn(stats_.tiles, contexts_);
-    live_ = tile_->drawn_columns().size() * tile_->drawn_rows().size();
+    live_ = tile_->image_columns().size() * tile_->image_rows().size();
     stats_.tiles++;
 }
 
@@ -160,7 +160,7 @@ BatchOutcome VectorUnit::blend(const GemmBatch& batch) {
     const std::uint32_t* list = job_.frame_of(*tile_).tile_splats.data() + batch.first;
     const std::uint32_t first_splat = tile_->first_splat;
     PixelTest test;
-    const PixelRange columns = tile_->drawn_columns(), rows = tile_->drawn_rows();
+    const PixelRange columns = tile_->image_columns(), rows = tile_->image_rows();
     test.mask = bits_between(columns.first, columns.last + 1);
     test.x = tile_->x;
     test.y = tile_->y + rows.first;

@@ -23,12 +23,12 @@ public:
         return {"projection", "sorting", "slicing", "span", "packing", "blending", "memory"};
     }
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
-    CoarseTile::Options drawing() const override {
+    CoarseTile::Options coarse_options() const override {
         return {config_.scheduler.segment_length, 1, config_.pipeline.span_ends != SpanEnds::Exact,
                 config_.pipeline.span_delta};
     }
     // Banks and Span Units own every n-th row, so rows are left out bank by bank. Those that have
-    // more to do than others hold these up, which only shows if enough of them are drawn.
+    // more to do than others hold these up, which only shows if enough of them are sampled.
     Blocks blocks() const override {
         constexpr int kLeastBanks = 8;
         const int banks = std::gcd(config_.scheduler.banks, config_.span.count);
@@ -77,7 +77,7 @@ private:
     };
     bool has_live_segment(const CoarseTile& tile, const CoarseSpan& span) const;
     double choose_rows(const CoarseTile& tile);
-    void begin_lanes(double rows_per_drawn);
+    void begin_lanes(double row_weight);
     void post(double date, double bytes);
     void post_lists(const CoarseTile& tile);
     double supply();
@@ -160,23 +160,23 @@ DegsClock::DegsClock(const DegsAnalytic& model, const FrameWorkload& frame)
 }
 
 /// Span Units own every n-th row, or are a pool that takes the rows of one lane.
-void DegsClock::begin_lanes(double rows_per_drawn) {
+void DegsClock::begin_lanes(double row_weight) {
     if (!lanes_.empty()) {
         return;
     }
     const bool pool = config_.spans_cross();
     const int lanes = pool ? 1 : config_.span.count;
-    // A pool has only as many as it takes for the rows that are drawn.
-    const long drawn = pool ? std::lround(rows_per_drawn) : 1;
+    // Only a sample of the rows goes through a pool, so that it gets only its share of the units.
+    const long weight = pool ? std::lround(row_weight) : 1;
     const int rows = config_.span_buffer.bytes / config_.span_buffer.row_bytes / lanes;
     const int units = config_.span.count * config_.span.rows_per_cycle / lanes;
-    lanes_.assign(lanes, {RingDates(rows / drawn), RingDates(units / drawn)});
+    lanes_.assign(lanes, {RingDates(rows / weight), RingDates(units / weight)});
 }
 
 void DegsClock::begin(const CoarseTile& tile) {
-    begin_lanes(tile.rows_per_drawn());
+    begin_lanes(tile.row_weight());
     const int rows = config_.slicing.rows_per_cycle * config_.slicing.modules();
-    slicing_.begin_tile(sliced_, std::lround(rows / tile.rows_per_drawn()));
+    slicing_.begin_tile(sliced_, std::lround(rows / tile.row_weight()));
     left_of_chunk_ = 0;
     post_lists(tile);
     start_ = finished_[tiles_ % finished_.size()];
@@ -263,7 +263,7 @@ double DegsClock::choose_rows(const CoarseTile& tile) {
         config_.slicing.rows == SlicedRows::Tile || config_.slicing.skip_dead_rows;
     if (!tile_rows) {
         auto span = tile.spans().begin();
-        for (int r = tile.first_drawn(); r < tile.end_drawn(); ++r) {
+        for (int r = tile.first_sampled(); r < tile.end_sampled(); ++r) {
             const int row = tile.rows()[r];
             const bool solved = span != tile.spans().end() && span->row == row;
             sent_.push_back(solved ? *span++ : CoarseSpan{row, 0, -1});
@@ -275,7 +275,7 @@ double DegsClock::choose_rows(const CoarseTile& tile) {
             sent_.push_back(span);
         }
     }
-    return tile.rows_per_drawn() * static_cast<double>(sent_.size());
+    return tile.row_weight() * static_cast<double>(sent_.size());
 }
 
 // The other streams do the same, each in its turn.
@@ -298,7 +298,7 @@ void DegsClock::post_lists(const CoarseTile& tile) {
     }
 }
 
-// Returns when the next splat is there.
+// Returns the date at which the next splat is in the Gaussian Buffer.
 double DegsClock::supply() {
     if (left_of_chunk_ == 0) {
         arrived_ = fetchers_[tiles_ % fetchers_.size()].next(memory_, model_.front().chunk_bytes());
@@ -350,22 +350,22 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
         over + tile.pixels() / config_.pixel_buffer.readout_pixels;
     post(over, tile.pixels() * model_.front().traffic.pixel_bytes);
     ++tiles_;
-    const double drawn = tile.rows_per_drawn();
+    const double weight = tile.row_weight();
     TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
-    cycles.slots = drawn * tasks_;
+    cycles.slots = weight * tasks_;
     // Every module of a stream takes each splat.
     cycles.counts[DegsAnalytic::kSlices] =
         std::max(slices_, tile.walked() * config_.slicing.modules());
     cycles.counts[DegsAnalytic::kTaken] = tile.walked() * config_.slicing.modules();
     cycles.counts[DegsAnalytic::kRows] = rows_;
-    cycles.counts[DegsAnalytic::kIssues] = drawn * issues_;
-    cycles.counts[DegsAnalytic::kSegments] = drawn * segments_;
-    cycles.counts[DegsAnalytic::kFeatures] = drawn * features_;
+    cycles.counts[DegsAnalytic::kIssues] = weight * issues_;
+    cycles.counts[DegsAnalytic::kSegments] = weight * segments_;
+    cycles.counts[DegsAnalytic::kFeatures] = weight * features_;
     cycles.busy[DegsAnalytic::kSlicing] = slices_ / (config_.clusters * config_.slicing.count);
     cycles.busy[DegsAnalytic::kSpan] = rows_ * config_.span.cycles_per_row /
                                        config_.span.rows_per_cycle /
                                        (config_.clusters * config_.span.count);
-    cycles.busy[DegsAnalytic::kPacking] = drawn * segments_ / config_.scheduler.issue_width /
+    cycles.busy[DegsAnalytic::kPacking] = weight * segments_ / config_.scheduler.issue_width /
                                           (config_.clusters * config_.scheduler.banks);
     cycles.busy[DegsAnalytic::kBlending] = cycles.slots / config_.pes();
     const double behind = std::max(done - sliced_, 0.0); // cycles of the banks behind the last row

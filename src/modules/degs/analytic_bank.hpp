@@ -15,18 +15,18 @@ namespace degs {
 /// oldest tile, by the scan rule. Cycles are real numbers.
 class AnalyticBank {
 public:
-    /// `depth`: segments that may wait. `domains`: of the bank in a tile.
+    /// `depth` segments may wait in the bank, which has `domains` conflict domains in a tile.
     AnalyticBank(std::size_t depth, std::size_t domains, double reuse_cycles, DomainScan scan)
         : depth_(depth), reuse_cycles_(reuse_cycles), scan_(scan),
           domains_(kTilesInFlight * domains) {}
 
-    /// A tile begins; all that waits of the one whose place it takes is issued.
+    /// Begins a tile. All waiting segments of the tile whose place it takes are issued first.
     void begin_tile();
 
     /// A segment that arrives at `date` and keeps the PEs busy for `taken` cycles waits for its
     /// domain; returns the date at which there was room for it. Dates do not fall.
     double add(double date, double taken, std::size_t domain);
-    /// When the PEs have had all tasks, unless they wait for a domain.
+    /// The date at which the PEs have had all tasks, if they never have to wait for a domain.
     double done() const { return free_ + waiting_cycles_; }
 
 private:
@@ -53,7 +53,7 @@ private:
     double start_of(const Domain& domain) const;
     std::uint64_t rank_of(std::size_t domain) const;
     static constexpr double kLast = std::numeric_limits<double>::infinity();
-    /// Issues the next segment if it goes before `limit`; returns when, or `limit`.
+    /// Issues the next segment if that is possible before `limit`. Returns the date, or `limit`.
     double issue(double limit);
 
     std::size_t depth_;

@@ -11,20 +11,21 @@ namespace degs {
 /// the unit that is free first, and a row is sent when every older splat in work has passed it.
 class AnalyticSlicing {
 public:
-    /// `splats_per_cycle`: of a unit. `rows`: of a tile.
+    /// Each unit takes `splats_per_cycle` splats; a tile has `rows` rows.
     AnalyticSlicing(int units, int splats_per_cycle, int rows);
 
-    /// A tile begins, not before `date`. A unit sends at most so many of its rows in a cycle.
+    /// Begins a tile, not before `date`. A unit sends at most so many of its rows in a cycle.
     void begin_tile(double date, std::size_t rows_per_cycle);
-    /// The next splat, which is there at `arrived`; returns when a unit takes it.
+    /// Begins the next splat, which is there at `arrived`. Returns the date at which a unit takes
+    /// it.
     double begin(double arrived);
-    /// Returns when the next row of the splat may be sent.
+    /// Returns the date at which row `row` of the splat may be sent.
     double send(int row);
-    /// The row had to wait for a place until `date`, and all units with it.
+    /// Makes all units wait until `date`, because the row finds no place in its lane before.
     void stall(double date);
-    /// After the last row of the splat; returns its cycles in the unit.
+    /// Ends the splat after its last row. Returns the cycles that it was in the unit.
     double end();
-    /// When all splats so far have been sent.
+    /// The date at which all splats so far have been sent.
     double done() const { return done_; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the Splat Fetchers to the crossbar.
+// Builds the part of a back end from the Splat Fetchers to the crossbar.
 #include "modules/degs/back_end.hpp"
 
 #include "modules/degs/span_engine/span_pool.hpp"
@@ -10,15 +10,16 @@ namespace degs {
 
 DegsBackEnd::DegsBackEnd(const Shared& shared, DegsBlocks& blocks, int index)
     : config_(shared.config), time_(shared.time), job_(shared.job), front_end_(shared.front_end),
-      supply_(shared.supply), drawing_(shared.drawing), options_(shared.options), index_(index),
-      fetchers_(blocks.fetchers), slicing_(blocks.slicing), releases_(blocks.releases),
-      spans_(blocks.spans), banks_(blocks.banks), packing_(blocks.packing), slices_(blocks.slices),
-      pixel_buffers_(blocks.pixel_buffers), monitors_(blocks.monitors),
-      sorted_rings_(blocks.sorted), request_rings_(blocks.splat_requests),
-      gaussian_rings_(blocks.gaussian_buffer), span_rings_(blocks.span_buffer),
-      crossbar_rings_(blocks.crossbar), packing_rings_(blocks.packing_buffer),
-      termination_rings_(blocks.terminations), region_rings_(blocks.region_ended),
-      done_rings_(blocks.tile_done), state_rings_(blocks.tile_state), sliced_rings_(blocks.sliced),
+      supply_(shared.supply), functional_(shared.functional), options_(shared.options),
+      index_(index), fetchers_(blocks.fetchers), slicing_(blocks.slicing),
+      releases_(blocks.releases), spans_(blocks.spans), banks_(blocks.banks),
+      packing_(blocks.packing), slices_(blocks.slices), pixel_buffers_(blocks.pixel_buffers),
+      monitors_(blocks.monitors), sorted_rings_(blocks.sorted),
+      request_rings_(blocks.splat_requests), gaussian_rings_(blocks.gaussian_buffer),
+      span_rings_(blocks.span_buffer), crossbar_rings_(blocks.crossbar),
+      packing_rings_(blocks.packing_buffer), termination_rings_(blocks.terminations),
+      region_rings_(blocks.region_ended), done_rings_(blocks.tile_done),
+      state_rings_(blocks.tile_state), sliced_rings_(blocks.sliced),
       row_count_rings_(blocks.row_counts), solved_rings_(blocks.solved),
       place_rings_(blocks.places), context_rings_(blocks.context_free),
       cancel_rings_(blocks.cancel) {
@@ -104,8 +105,8 @@ void DegsBackEnd::build_slicing() {
             config_.span_lanes(), reachable(g, slicers, config_.scheduler.banks),
             config_.scheduler.segment_length));
         GaussianSlicingUnit& unit = slicing_.back();
-        if (drawing_ != nullptr) {
-            unit.draw_with(*drawing_);
+        if (functional_ != nullptr) {
+            unit.replay(*functional_);
         }
         for (int f = 0; f < of_stream; ++f) {
             auto& splats = ring(gaussian_rings_, "gaussian_buffer", config_.gaussian_chunks(), 1);
@@ -124,7 +125,7 @@ std::unique_ptr<SpanStage> DegsBackEnd::make_span_module(int index) {
     SpanStage::Config config = config_.span;
     config.row_ports = config_.span_buffer.ports;
     config.reports_rows = config_.parameters_wait();
-    config.drawn = drawing_ != nullptr;
+    config.replays = functional_ != nullptr;
     config.granted = config_.granted();
     if (!config_.spans_are_pooled()) {
         return std::make_unique<SpanUnit>(name.c_str(), config, time_, job_, index, banks);

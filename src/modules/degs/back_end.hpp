@@ -9,7 +9,7 @@
 #include <systemc>
 
 #include "modules/degs/config.hpp"
-#include "modules/degs/drawing/tile_drawing.hpp"
+#include "modules/degs/functional/functional_model.hpp"
 #include "modules/degs/span_engine/parameter_release.hpp"
 #include "modules/kit/engine/collect.hpp"
 #include "modules/kit/engine/tile_front_end.hpp"
@@ -60,14 +60,14 @@ public:
         const Timebase& time;
         RenderJob& job;
         TileFrontEnd& front_end;
-        SplatSupply* supply;  ///< nullptr: fetchers read by themselves
-        TileDrawing* drawing; ///< nullptr: tasks are blended when they execute
+        SplatSupply* supply;         ///< nullptr: fetchers read by themselves
+        FunctionalModel* functional; ///< nullptr: tasks are blended when they execute
         const BuildOptions& options;
     };
 
     /// Builds the fetchers. The back end of this index keeps its tiles in its own contexts.
     DegsBackEnd(const Shared& shared, DegsBlocks& blocks, int index);
-    /// Builds everything behind them.
+    /// Builds everything behind the fetchers.
     void build();
 
 private:
@@ -124,7 +124,7 @@ private:
     RenderJob& job_;
     TileFrontEnd& front_end_;
     SplatSupply* supply_;
-    TileDrawing* drawing_;
+    FunctionalModel* functional_;
     BuildOptions options_;
     int index_;
 

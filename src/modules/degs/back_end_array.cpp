@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the crossbar to the Pixel Buffer.
+// Builds the part of a back end from the crossbar to the Pixel Buffer.
 #include <algorithm>
 
 #include "modules/degs/back_end.hpp"
@@ -24,7 +24,7 @@ void DegsBackEnd::build_scheduler() {
     }
 }
 
-// Queues whose room is asked for tell it in the cycle after.
+// A queue whose room others ask for shows it in the cycle after, so that the answer is certain.
 void DegsBackEnd::connect_crossbar(int bank) {
     const int modules = config_.span.modules();
     const int release = config_.spans_are_pooled() ? 1 : 0;
@@ -75,9 +75,9 @@ void DegsBackEnd::connect_slice(int bank) {
     slices_[b]->record(part);
     packing_[b]->out.bind(packets);
     slices_[b]->in.bind(packets);
-    if (drawing_ != nullptr) {
+    if (functional_ != nullptr) {
         packing_[b]->tell(*slices_[b], time_.timeline != nullptr);
-        slices_[b]->expect_drawn();
+        slices_[b]->expect_replay();
     }
     auto& terminations = wire(termination_rings_, "terminations", writeback);
     slices_[b]->terminated.bind(terminations);
@@ -117,8 +117,8 @@ void DegsBackEnd::build_pixel_buffers() {
             numbered("pixel_buffer", pixel_buffers_.size()).c_str(), config, config_.traffic, time_,
             job_, banks / parts, config_.contexts_per_stream(), share,
             FrameEnds::awaited(front_end_.frame_free, options_), options_.array_only));
-        if (drawing_ != nullptr) {
-            pixel_buffers_.back().read_from(*drawing_);
+        if (functional_ != nullptr) {
+            pixel_buffers_.back().read_from(*functional_);
         }
     }
 }

@@ -28,8 +28,8 @@ private:
 Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const Timebase& time,
            RenderJob& job, const BuildOptions& options)
     : RenderEngine(name), config_(config), time_(time), job_(job), options_(options) {
-    if (draws_ahead()) {
-        drawing_ = make_tile_drawing(
+    if (is_functional_first()) {
+        functional_ = make_functional_model(
             job_, {!config_.span.parsing, config_.slicing.rows, config_.slicing.modules()},
             {options_.kept, options_.kept == nullptr ? "" : key_text(config_.pipeline)});
     }
@@ -43,13 +43,13 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
 }
 
 // Strict mode blends tasks when they execute. So do runs whose pixels depend on that date, and
-// tiles that are too wide or may be too many for TileDrawing.
-bool Degs::draws_ahead() const {
+// tiles that are too wide or may be too many for FunctionalModel.
+bool Degs::is_functional_first() const {
     const std::int64_t tiles_in_flight =
         config_.clusters * (std::int64_t{1} * config_.streams() * config_.span_lane_depth() +
                             config_.crossbar_cells() + config_.contexts());
     return time_.fidelity == Fidelity::Exact && config_.scheduler.scoreboard &&
-           config_.tile_size <= kMostDrawnColumns && tiles_in_flight < kMostContexts / 2;
+           config_.tile_size <= kMostMaskColumns && tiles_in_flight < kMostContexts / 2;
 }
 
 std::vector<RenderEngine::BlockGroup> Degs::logged_blocks() const {
@@ -96,8 +96,8 @@ void Degs::build_supply() {
 }
 
 void Degs::build_back_ends() {
-    const DegsBackEnd::Shared shared{config_,       time_,          job_,    *front_end_,
-                                     supply_.get(), drawing_.get(), options_};
+    const DegsBackEnd::Shared shared{config_,           time_,   job_, *front_end_, supply_.get(),
+                                     functional_.get(), options_};
     const auto grant_tiles = [&] {
         if (config_.granted()) {
             grants_ = std::make_unique<TileGrants>(*front_end_, blocks_.fetchers,

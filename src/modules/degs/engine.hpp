@@ -59,7 +59,7 @@ public:
     RingUse packing_buffer() const;
 
 private:
-    bool draws_ahead() const;
+    bool is_functional_first() const;
     void build_front_end();
     void build_supply();
     void build_back_ends();
@@ -79,7 +79,7 @@ private:
     Timebase time_;
     RenderJob& job_;
     BuildOptions options_;
-    std::unique_ptr<TileDrawing> drawing_; // nullptr: tasks are blended when they execute
+    std::unique_ptr<FunctionalModel> functional_; // nullptr: tasks are blended when they execute
 
     std::unique_ptr<TileFrontEnd> front_end_;
     std::unique_ptr<SplatSupply> supply_;

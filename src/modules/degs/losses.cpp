@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves the losses of DeGS.
+// Names the keys that would reduce each loss of PE-cycles of a DeGS design.
 #include "modules/degs/config.hpp"
 
 namespace degs {

@@ -6,7 +6,7 @@
 
 #include "base/grouped_number.hpp"
 #include "modules/degs/engine.hpp"
-#include "modules/degs/span_engine/drawn_spans.hpp"
+#include "modules/degs/span_engine/span_replay.hpp"
 
 namespace degs {
 namespace {
@@ -85,7 +85,7 @@ void Degs::collect_stages(AcceleratorResult& result) const {
 RingUse Degs::span_buffer() const {
     RingUse use = use_of(blocks_.span_buffer);
     for (const auto& stage : blocks_.spans) {
-        for (const auto& spans : stage->drawn_spans()) {
+        for (const auto& spans : stage->replays()) {
             use += use_of(spans->lane_counts(), 0);
         }
     }
@@ -95,7 +95,7 @@ RingUse Degs::span_buffer() const {
 RingUse Degs::crossbar() const {
     RingUse use = use_of(blocks_.crossbar);
     for (const auto& stage : blocks_.spans) {
-        for (const auto& spans : stage->drawn_spans()) {
+        for (const auto& spans : stage->replays()) {
             use += use_of(spans->counts(), 0);
         }
     }
@@ -148,10 +148,10 @@ void Degs::collect_laws(AcceleratorResult& result) const {
     const std::uint64_t dropped = sum_of(blocks_.banks, &B::tasks_dropped);
     const std::uint64_t packed = sum_of(blocks_.packing, &PackingUnit::Stats::tasks);
     const SlotAccount& s = result.slots;
-    result.waited_s = drawing_ ? drawing_->waited_s() : 0;
-    if (drawing_ && drawing_->fragments() != s[Slot::Useful]) {
-        throw std::logic_error("the model is broken, pixels drawn = useful tasks executed: " +
-                               std::to_string(drawing_->fragments()) + " is not " +
+    result.waited_s = functional_ ? functional_->waited_s() : 0;
+    if (functional_ && functional_->fragments() != s[Slot::Useful]) {
+        throw std::logic_error("the model is broken, pixels updated = useful tasks executed: " +
+                               std::to_string(functional_->fragments()) + " is not " +
                                std::to_string(s[Slot::Useful]));
     }
     result.conservation.insert(

@@ -20,12 +20,12 @@ CoarseTile::CoarseTile(const FrameWorkload& frame, const Options& options)
       grid_(frame.grid()), prepared_(kPrepared) {}
 
 void CoarseTile::begin(int tile, const RowChoice& choice) {
-    const PixelBox whole = grid_.pixels_of(tile), drawn = grid_.drawn_of(tile);
+    const PixelBox whole = grid_.pixels_of(tile), inside = grid_.image_pixels_of(tile);
     tile_ = tile;
     x_ = whole.x0;
     y_ = whole.y0;
-    columns_ = PixelRange{drawn.x0, drawn.x1}.relative_to(x_);
-    pixel_rows_ = PixelRange{drawn.y0, drawn.y1}.relative_to(y_);
+    columns_ = PixelRange{inside.x0, inside.x1}.relative_to(x_);
+    pixel_rows_ = PixelRange{inside.y0, inside.y1}.relative_to(y_);
     begin_ = entry_ = frame_.tile_begin[tile];
     end_ = frame_.tile_begin[tile + 1];
     blended_ = 0;
@@ -55,16 +55,16 @@ void CoarseTile::choose_rows(const RowChoice& choice) {
     place_of_row_.assign(pixel_rows_.last + 1, 0);
     int height_of_blocks = 0;
     for (int block = blocks.first; block <= blocks.last; ++block) {
-        const bool drawn = (block - blocks.first) % choice.apart == first % choice.apart;
+        const bool sampled = (block - blocks.first) % choice.apart == first % choice.apart;
         const int begin = std::max(block * choice.height, pixel_rows_.first);
         const int end = std::min((block + 1) * choice.height, pixel_rows_.last + 1);
-        if (drawn) {
+        if (sampled) {
             blocks_.push_back(block);
             height_of_blocks += end - begin;
         }
         for (int row = begin; row < end; ++row) {
             rows_from_.push_back(static_cast<int>(rows_.size()));
-            if (drawn && (row - begin) % choice.step == 0) {
+            if (sampled && (row - begin) % choice.step == 0) {
                 place_of_row_[row] = rows_.size() * samples_;
                 rows_.push_back(row);
             }
@@ -74,8 +74,8 @@ void CoarseTile::choose_rows(const RowChoice& choice) {
     row_values_.assign(rows_.begin(), rows_.end());
     row_values_.resize(rows_.size() + kLanes - 1);
     spans_.resize(rows_.size());
-    rows_per_drawn_ = static_cast<double>(pixel_rows_.size()) / static_cast<double>(rows_.size());
-    blocks_per_drawn_ = static_cast<double>(pixel_rows_.size()) / height_of_blocks;
+    row_weight_ = static_cast<double>(pixel_rows_.size()) / static_cast<double>(rows_.size());
+    block_weight_ = static_cast<double>(pixel_rows_.size()) / height_of_blocks;
 }
 
 CoarseSpan CoarseTile::span_of(int row) const {

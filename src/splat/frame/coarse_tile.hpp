@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The splats of a tile, drawn with few of its pixels: exact spans, sampled transmittance.
+// A tile whose splats are rendered at a sample of its pixels: exact spans, sampled transmittance.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct CoarseSpan {
     int length() const { return last - first + 1; }
 };
 
-/// Some of them that lie one behind the other.
+/// Spans that lie one behind the other in an array.
 struct CoarseSpans {
     const CoarseSpan *first = nullptr, *last = nullptr; ///< behind the last one
     const CoarseSpan* begin() const { return first; }
@@ -33,8 +33,9 @@ struct CoarseSpans {
     const CoarseSpan& front() const { return *first; }
 };
 
-/// Draws some rows of a tile splat by splat, near to far, by the rules of the reference renderer in
-/// single precision, at one column in four. What ends is known per cell, a block of pixels.
+/// Renders a sample of the rows of a tile splat by splat, near to far, by the rules of the
+/// reference renderer in single precision, at one column in four. What ends is known per cell, a
+/// block of pixels.
 class CoarseTile {
 public:
     static constexpr int kLanes = 4; ///< rows or samples that the host takes at a time
@@ -46,7 +47,7 @@ public:
     };
     CoarseTile(const FrameWorkload& frame, const Options& options);
 
-    /// At least one row of the tile is drawn, whatever the choice.
+    /// Begins a tile. At least one of its rows is sampled, whatever the choice.
     void begin(int tile, const RowChoice& choice);
     /// Solves the next splat of the list. False if the list is over or all sampled pixels have
     /// ended.
@@ -63,28 +64,29 @@ public:
     double pixels() const { return 1.0 * columns_.size() * pixel_rows_.size(); }
     double entries() const { return static_cast<double>(end_ - begin_); }
     double walked() const { return static_cast<double>(entry_ - begin_); } ///< solved so far
-    /// What a drawn row stands for, and what a block with drawn rows stands for.
-    double rows_per_drawn() const { return rows_per_drawn_; }
-    double blocks_per_drawn() const { return blocks_per_drawn_; }
-    /// The rows that are drawn, and the blocks that they make up; top to bottom.
+    /// Sampling weights: the number of rows that a sampled row stands for, and the number of blocks
+    /// that a block with sampled rows stands for.
+    double row_weight() const { return row_weight_; }
+    double block_weight() const { return block_weight_; }
+    /// The sampled rows, and the blocks that they make up; top to bottom.
     const std::vector<int>& rows() const { return rows_; }
     const std::vector<int>& blocks() const { return blocks_; }
 
     // The solved splat, its rows and its spans.
     std::uint32_t splat() const { return splat_; }
-    /// Rows of the tile that its bounding box meets, drawn or not.
+    /// Rows of the tile that the splat's bounding box meets, sampled or not.
     int first_row() const { return first_row_; }
     int last_row() const { return last_row_; }
-    /// The drawn ones among them, as a range of rows().
-    int first_drawn() const { return rows_from_[first_row_]; }
-    int end_drawn() const { return rows_from_[std::max(last_row_ + 1, first_row_)]; }
-    /// Drawn rows with a pixel of the span, top to bottom.
+    /// The sampled rows among them, as a range of rows().
+    int first_sampled() const { return rows_from_[first_row_]; }
+    int end_sampled() const { return rows_from_[std::max(last_row_ + 1, first_row_)]; }
+    /// The spans of the sampled rows that the splat covers, top to bottom.
     CoarseSpans spans() const { return {spans_.data(), spans_.data() + span_count_}; }
     /// The span of any row of the image, px from the upper left corner of the tile; empty without a
     /// pixel inside the tile's columns.
     CoarseSpan span_of(int row) const;
 
-    /// False once all sampled pixels of a drawn row have ended.
+    /// False once all sampled pixels of a sampled row have ended.
     bool row_is_live(int row) const { return live_in_row_[row] != 0; }
     /// Share of the sampled pixels of the span that have not ended.
     double live_share(const CoarseSpan& span) const;
@@ -98,7 +100,7 @@ public:
     std::uint64_t cell_changes() const { return cell_changes_; }
 
     /// Fragments so far, scaled to all pixels.
-    double fragments() const { return static_cast<double>(blended_) * kApart * rows_per_drawn_; }
+    double fragments() const { return static_cast<double>(blended_) * kApart * row_weight_; }
 
 private:
     static constexpr int kApart = 4; ///< px between sampled columns
@@ -142,12 +144,12 @@ private:
     TileGrid grid_;
     int tile_ = 0, x_ = 0, y_ = 0;
     PixelRange columns_, pixel_rows_;
-    double rows_per_drawn_ = 1, blocks_per_drawn_ = 1;
+    double row_weight_ = 1, block_weight_ = 1;
     std::vector<int> blocks_;
-    std::vector<int> rows_;                 ///< drawn ones, rising
+    std::vector<int> rows_;                 ///< sampled rows, rising
     std::vector<float> row_values_;         ///< the same, and behind them whatever
     std::vector<int> rows_from_;            ///< by row: how many of rows_ are above it
-    std::vector<std::size_t> place_of_row_; ///< in transmittance_, if the row is drawn
+    std::vector<std::size_t> place_of_row_; ///< in transmittance_, if the row is sampled
     std::uint64_t begin_ = 0, end_ = 0, entry_ = 0;
     std::vector<float> transmittance_; ///< of the sampled pixels; 0: ended
     std::vector<Cell> cells_;
@@ -166,12 +168,12 @@ private:
     std::size_t span_count_ = 0;
 };
 
-/// Means over the entries of the lists.
+/// Sizes of an entry of a tile's list, as means over all lists of a frame.
 struct EntrySizes {
     double rows = 0;   ///< of a splat on a tile
-    double visits = 0; ///< what it costs to draw these rows, all of them, in visits
+    double visits = 0; ///< what it costs to render all of these rows, in visits
 };
-/// If every `step`-th row is drawn.
+/// The sizes of the entries of a frame, where every `step`-th row is sampled.
 EntrySizes entry_sizes(const FrameWorkload& frame, int step);
 
 } // namespace degs

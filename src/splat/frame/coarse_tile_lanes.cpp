@@ -91,7 +91,7 @@ void CoarseTile::solve_rows() {
     const FloatLanes most = all(static_cast<float>(columns_.last));
     const FloatLanes beyond = all(static_cast<float>(options_.delta));
     CoarseSpan* span = spans_.data();
-    for (int r = first_drawn(); r < end_drawn(); r += kLanes) {
+    for (int r = first_sampled(); r < end_sampled(); r += kLanes) {
         const FloatLanes dy = load(&row_values_[r]) - mu_y_;
         const FloatLanes rest = threshold_ - dy * dy * inverse_c_;
         const FloatLanes centre = mu_x_ + slope_ * dy;
@@ -103,8 +103,8 @@ void CoarseTile::solve_rows() {
         right = most < right ? most : right;
         const IntLanes first = integers(left), last = integers(right);
         std::uint32_t met = bits((rest >= 0.0F) & (left <= right));
-        if (end_drawn() - r < kLanes) {
-            met &= (1U << (end_drawn() - r)) - 1;
+        if (end_sampled() - r < kLanes) {
+            met &= (1U << (end_sampled() - r)) - 1;
         }
         for (; met != 0; met &= met - 1) {
             const int lane = __builtin_ctz(met);
@@ -133,9 +133,9 @@ void CoarseTile::blend() {
             if (tested == 0) {
                 continue;
             }
-            const FloatLanes drawn = opacity_ * exponential(-0.5F * q);
+            const FloatLanes unlimited = opacity_ * exponential(-0.5F * q);
             const FloatLanes limit = all(static_cast<float>(kAlphaMax));
-            const FloatLanes alpha = drawn < limit ? drawn : limit;
+            const FloatLanes alpha = unlimited < limit ? unlimited : limit;
             const FloatLanes rest = before * (1.0F - alpha);
             const IntLanes alive = rest >= static_cast<float>(kStopTransmittance);
             const FloatLanes after = chosen(inside, chosen(alive, rest, FloatLanes{}), before);

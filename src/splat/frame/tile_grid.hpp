@@ -48,7 +48,7 @@ public:
         return PixelBox{x, y, x + tile_size_ - 1, y + tile_size_ - 1}.within(covered_);
     }
     /// The pixels of a tile in the image.
-    PixelBox drawn_of(int tile) const { return pixels_of(tile).within(image_); }
+    PixelBox image_pixels_of(int tile) const { return pixels_of(tile).within(image_); }
 
     /// The columns and rows of hidden tiles, counted from the first tile; empty if there are none.
     const PixelBox& hidden() const { return hidden_; }
@@ -66,8 +66,8 @@ private:
         return std::uint64_t{1} * box.width() * box.height();
     }
     PixelBox hidden_pixels() const {
-        const PixelBox first = drawn_of(hidden_.y0 * tiles_x_ + hidden_.x0);
-        const PixelBox last = drawn_of(hidden_.y1 * tiles_x_ + hidden_.x1);
+        const PixelBox first = image_pixels_of(hidden_.y0 * tiles_x_ + hidden_.x0);
+        const PixelBox last = image_pixels_of(hidden_.y1 * tiles_x_ + hidden_.x1);
         return {first.x0, first.y0, last.x1, last.y1};
     }
     void hide(const PixelBox& hole) {

@@ -26,8 +26,8 @@ inline TileWindow tiles_around(const FrameWorkload& work, const PixelBox& box) {
 /// The pixels of the image in these tiles, in the raster.
 inline PixelBox pixels_of(const FrameWorkload& work, const TileWindow& window) {
     const TileGrid grid = work.grid();
-    const PixelBox first = grid.drawn_of(window.y0 * work.tiles_x + window.x0);
-    const PixelBox last = grid.drawn_of(window.y1 * work.tiles_x + window.x1);
+    const PixelBox first = grid.image_pixels_of(window.y0 * work.tiles_x + window.x0);
+    const PixelBox last = grid.image_pixels_of(window.y1 * work.tiles_x + window.x1);
     return {first.x0, first.y0, last.x1, last.y1};
 }
 

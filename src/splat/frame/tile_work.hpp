@@ -7,12 +7,12 @@
 namespace degs {
 
 /// Sizes of a tile, or of several together, on which the time of its rendering depends. Tiles,
-/// pixels and entries are exact; the others come from the rows and pixels that were drawn.
+/// pixels and entries are exact; the others come from the rows and pixels that were sampled.
 struct TileWork {
     double tiles = 1;
     double pixels = 0;    ///< inside the image
     double entries = 0;   ///< length of the lists
-    double walked = 0;    ///< entries before all drawn pixels of a tile had ended
+    double walked = 0;    ///< entries before all sampled pixels of a tile had ended
     double rows = 0;      ///< rows of splats that reach a row with a pixel that has not ended
     double tasks = 0;     ///< pixels of these rows in the spans, whether or not they have ended
     double fragments = 0; ///< of them those that are blended

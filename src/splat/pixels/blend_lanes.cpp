@@ -14,7 +14,7 @@ namespace degs {
 namespace narrow {
 constexpr int kLanes = 4;
 #include "splat/pixels/blend_kernel.inc"
-#include "splat/pixels/draw_kernel.inc"
+#include "splat/pixels/rasterise_kernel.inc"
 } // namespace narrow
 
 #ifdef DEGS_HAS_WIDE_LANES
@@ -24,7 +24,7 @@ constexpr int kLanes = 4;
 namespace wide {
 constexpr int kLanes = 8;
 #include "splat/pixels/blend_kernel.inc"
-#include "splat/pixels/draw_kernel.inc"
+#include "splat/pixels/rasterise_kernel.inc"
 } // namespace wide
 #undef DEGS_WIDE_MOVEMASK
 #pragma GCC pop_options
@@ -44,12 +44,12 @@ std::vector<ProductFunction<float>> product_variants() {
     return runnable<ProductFunction<float>>({&narrow::product_float, &wide::product_float});
 }
 
-std::vector<DrawFunction> draw_variants() {
-    return runnable<DrawFunction>({&narrow::draw_float, &wide::draw_float});
+std::vector<RasteriseFunction> rasterise_variants() {
+    return runnable<RasteriseFunction>({&narrow::rasterise_float, &wide::rasterise_float});
 }
 
-DrawFunction draw_function() {
-    return draw_variants().back();
+RasteriseFunction rasterise_function() {
+    return rasterise_variants().back();
 }
 
 BlendFunction<float> blend_function(float /*type*/) {

@@ -126,20 +126,20 @@ struct EndsOfRows {
     bool exact = true; ///< ceil and floor; else floor and ceil, and `delta`
     float delta = 0;   ///< px more at either end
 };
-/// DataPath::draw_rows() of solved rows in single precision: neighbouring rows are solved together,
-/// then the neighbouring pixels of each row are blended together. `firsts` has the first pixel of
-/// every row, by row of the tile. Planes, `refuse` and widths as for BlendFunction.
-using DrawFunction = void (*)(const TileRows& rows, const SpanRecord<float>& span,
-                              const BlendRecord<float>& splat, const EndsOfRows& ends, bool refuse,
-                              PixelPlanes<float>& pixels, const std::size_t* firsts,
-                              DrawnRow* drawn);
-DrawFunction draw_function();
+/// DataPath::rasterise_rows() of solved rows in single precision: neighbouring rows are solved
+/// together, then the neighbouring pixels of each row are blended together. `firsts` has the first
+/// pixel of every row, by row of the tile. Planes, `refuse` and widths as for BlendFunction.
+using RasteriseFunction = void (*)(const TileRows& rows, const SpanRecord<float>& span,
+                                   const BlendRecord<float>& splat, const EndsOfRows& ends,
+                                   bool refuse, PixelPlanes<float>& pixels,
+                                   const std::size_t* firsts, RowOutcome* outcomes);
+RasteriseFunction rasterise_function();
 
 /// For tests: all variants of this build that the machine can run, narrow ones first.
 std::vector<BlendFunction<float>> blend_variants();
 std::vector<TestFunction<float>> test_variants();
 std::vector<ProductFunction<float>> product_variants();
-std::vector<DrawFunction> draw_variants();
+std::vector<RasteriseFunction> rasterise_variants();
 /// The exponential of the float lanes, x in [-80, 1]; relative error < 3e-7.
 float lane_exp(float x);
 

@@ -11,8 +11,8 @@
 #include "splat/frame/pixel_rows.hpp"
 #include "splat/pixels/blend_lanes.hpp"
 #include "splat/pixels/checked_row.hpp"
-#include "splat/pixels/draw_rows.hpp"
 #include "splat/pixels/quantized_data_path.hpp"
+#include "splat/pixels/rasterise_rows.hpp"
 #include "splat/pixels/span_record.hpp"
 #include "splat/pixels/splat_places.hpp"
 
@@ -192,7 +192,7 @@ public:
         return blend_(task, blends_[task.splat], refuse_, pixels_, first);
     }
 
-    void draw_rows(const TileRows& rows, DrawnRow* drawn) override {
+    void rasterise_rows(const TileRows& rows, RowOutcome* outcomes) override {
         if constexpr (std::is_same_v<T, float>) {
             if (!rows.tests) {
                 firsts_.resize(std::max<std::size_t>(firsts_.size(), rows.last + 1));
@@ -201,12 +201,12 @@ public:
                 }
                 const EndsOfRows ends{options_.ends == SpanEnds::Exact,
                                       static_cast<float>(options_.delta)};
-                draw_(rows, spans_[rows.splat], blends_[rows.splat], ends, refuse_, pixels_,
-                      firsts_.data(), drawn);
+                rasterise_(rows, spans_[rows.splat], blends_[rows.splat], ends, refuse_, pixels_,
+                           firsts_.data(), outcomes);
                 return;
             }
         }
-        draw_row_by_row(*this, rows, drawn);
+        rasterise_row_by_row(*this, rows, outcomes);
     }
 
     void hold_contexts(int contexts) override { rows_.hold(contexts); }
@@ -337,8 +337,8 @@ private:
     PixelPlanes<T> pixels_;
     BlendFunction<T> blend_;
     TestFunction<T> test_;
-    DrawFunction draw_ = draw_function();
-    std::vector<std::size_t> firsts_; // first pixels of rows for draw_
+    RasteriseFunction rasterise_ = rasterise_function();
+    std::vector<std::size_t> firsts_; // first pixels of rows for rasterise_
     std::vector<TestRow<T>> tested_;  // rows for test_
     ProductFunction<T> product_ = product_function(T{});
     std::vector<ProductRow> products_; // rows for product_

@@ -120,25 +120,26 @@ struct PixelValue {
     bool ended = false;
 };
 
-/// The widest tile whose rows are drawn whole: a bit per column.
-constexpr int kMostDrawnColumns = 128;
-/// The most rows that are drawn at a time.
-constexpr int kMostDrawnRows = 64;
+/// The columns of a RowMask, and so of the widest tile whose rows rasterise_rows() can take.
+constexpr int kMostMaskColumns = 128;
+/// The most rows that rasterise_rows() takes at a time.
+constexpr int kMostRowsAtOnce = 64;
 
-/// Up to kMostDrawnRows rows of one splat inside one tile of at most kMostDrawnColumns columns.
+/// Up to kMostRowsAtOnce rows of one splat inside one tile of at most kMostMaskColumns columns.
 struct TileRows {
     std::uint32_t splat = 0;
     int context = 0;                    ///< tile context of the pixels
     int x_begin = 0, x_end = 0;         ///< columns of the tile, raster px
     int tile_y = 0;                     ///< raster row of the tile's row 0
     int first = 0, last = -1, step = 1; ///< rows inside the tile: first, first + step, ... last
-    PixelRange drawn{0, kMostDrawnColumns - 1}; ///< columns inside the tile that the image has
+    PixelRange image_columns{0,
+                             kMostMaskColumns - 1}; ///< columns inside the tile that the image has
     bool tests = false; ///< rows are as wide as the splat's box, and every pixel tests itself
 };
 
-/// What becomes of the pixels of a row. Bit i of a mask is column i of the tile. There is no gap,
-/// so that a copy of what was just written need not wait for the write.
-struct DrawnRow {
+/// What becomes of the pixels of a row of a splat. Bit i of a mask is column i of the tile. The
+/// struct has no padding, so that a copy of what was just written need not wait for the write.
+struct RowOutcome {
     RowMask inside;          ///< tasks inside the ellipse; all others of the span are outside
     RowMask useful;          ///< of these, blended; the others have ended or refuse the splat
     RowMask ended;           ///< pixels that end with this splat
@@ -194,10 +195,10 @@ public:
     /// True if rounding may let test() find pixels inside that lie visibly outside the ellipse of
     /// the splat as it was projected: number sets.
     virtual bool rounds_coarsely() const = 0;
-    /// Solves rows and blends them, each as solve_row() and blend() do, or as row_of_box() and
-    /// test(). `drawn` has a place for each of the rows, in their order. Splats of a row come in
-    /// the order of their depth.
-    virtual void draw_rows(const TileRows& rows, DrawnRow* drawn) = 0;
+    /// Rasterises rows: solves and blends each as solve_row() and blend() do, or as row_of_box()
+    /// and test(). `outcomes` has a place for each of the rows, in their order. Splats of a row
+    /// come in the order of their depth.
+    virtual void rasterise_rows(const TileRows& rows, RowOutcome* outcomes) = 0;
     /// Makes room for tile contexts up to this number, at most kMostContexts.
     virtual void hold_contexts(int contexts) = 0;
     /// The first `count` pixels of a row.

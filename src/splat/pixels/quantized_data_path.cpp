@@ -10,10 +10,10 @@
 #include "splat/frame/pixel_index.hpp"
 #include "splat/frame/pixel_rows.hpp"
 #include "splat/pixels/coupled_row.hpp"
-#include "splat/pixels/draw_rows.hpp"
 #include "splat/pixels/quantized_extent.hpp"
 #include "splat/pixels/quantized_gemm.hpp"
 #include "splat/pixels/quantized_pixels.hpp"
+#include "splat/pixels/rasterise_rows.hpp"
 #include "splat/pixels/row_lanes.hpp"
 #include "splat/pixels/splat_places.hpp"
 
@@ -175,14 +175,14 @@ public:
 
     bool rounds_coarsely() const override { return true; }
 
-    void draw_rows(const TileRows& rows, DrawnRow* drawn) override {
+    void rasterise_rows(const TileRows& rows, RowOutcome* outcomes) override {
         if (!rows.tests) {
             solve_rows(rows);
         }
         const auto solved = [this](int index, int /*row*/) -> const RowSpan& {
             return solved_[index];
         };
-        draw_row_by_row(*this, rows, solved, drawn);
+        rasterise_row_by_row(*this, rows, solved, outcomes);
     }
 
     void hold_contexts(int contexts) override { rows_.hold(contexts); }
@@ -235,7 +235,7 @@ private:
     QuantizedGemm gemm_;
     RowNumbers numbers_;
     SolveRowsFunction solve_ = solve_rows_function();
-    std::array<RowSpan, kMostDrawnRows> solved_; // of the splat that is drawn
+    std::array<RowSpan, kMostRowsAtOnce> solved_; // of the splat that is rasterised
     QuantizedSlack slack_;
     bool refuse_;
     PixelRows rows_;

@@ -69,7 +69,7 @@ private:
 };
 
 void TilePainter::begin(int tile) {
-    const PixelBox box = grid_.drawn_of(tile);
+    const PixelBox box = grid_.image_pixels_of(tile);
     x0_ = box.x0;
     y0_ = box.y0;
     x1_ = box.x1;

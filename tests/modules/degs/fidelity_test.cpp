@@ -133,7 +133,7 @@ void expect_same_timelines(const TimelineRecord& a, const TimelineRecord& b) {
     }
 }
 
-// Tasks that have been drawn are recorded when they are packed, with the dates at which they
+// Replayed tasks are recorded when they are packed, with the dates at which they
 // execute.
 class RecordedRunFidelity : public ::testing::TestWithParam<unsigned> {};
 

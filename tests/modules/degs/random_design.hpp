@@ -36,8 +36,8 @@ public:
         }
     }
 
-    /// Designs whose banks are DrawnBanks in exact mode, of one tile stream that goes round robin,
-    /// or of several that share Span Units (SpanTurns).
+    /// Designs whose packets are only counted in exact mode, of one tile stream that goes round
+    /// robin, or of several that share Span Units (SpanTurns).
     DegsConfig plain(unsigned index, bool several_streams = false) {
         for (;;) {
             DegsConfig c = candidate(index);

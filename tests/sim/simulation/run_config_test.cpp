@@ -118,7 +118,7 @@ TEST(Configs, WrongNumbersAreNamed) {
                    "--set pipeline.formats.alpha=uq1.15: key 'pipeline.formats.alpha' is unknown; "
                    "parts of a number set stand behind its name, as in pipeline.numbers: "
                    "tuned:alpha=uq1.15, or in a number file that pipeline.numbers names.");
-    // The same holds for a value that does not come from a file or a command line.
+    // This also holds for a value that does not come from a file or a command line.
     RunConfig design;
     EXPECT_THROW(design.set("pipeline.numbers", "papr"), InputError);
     EXPECT_EQ(design.get("pipeline.numbers"), "fp32");

@@ -27,16 +27,16 @@ struct CoarseCounts {
     double rows = 0, tasks = 0, fragments = 0, walked = 0;
 };
 
-CoarseCounts draw(const FrameWorkload& frame, const CoarseTile::Options& options,
-                  const RowChoice& choice) {
+CoarseCounts count(const FrameWorkload& frame, const CoarseTile::Options& options,
+                   const RowChoice& choice) {
     CoarseCounts counts;
     CoarseTile tile(frame, options);
     for (int t = 0; t < frame.tiles(); ++t) {
         tile.begin(t, choice);
         while (tile.next()) {
             for (const CoarseSpan& span : tile.spans()) {
-                counts.rows += tile.rows_per_drawn();
-                counts.tasks += tile.rows_per_drawn() * span.length();
+                counts.rows += tile.row_weight();
+                counts.tasks += tile.row_weight() * span.length();
                 EXPECT_GE(span.first, 0);
                 EXPECT_LT(span.last, tile.columns().size());
                 EXPECT_GE(span.row, tile.first_row());
@@ -54,7 +54,7 @@ TEST(CoarseTile, ComesCloseToTheFragmentsOfTheReference) {
     const FrameWorkload frame = coarse_crowd();
     ReferenceCounts reference;
     render_reference(frame, reference);
-    const CoarseCounts all = draw(frame, {16, 1}, {});
+    const CoarseCounts all = count(frame, {16, 1}, {});
     const auto fragments = static_cast<double>(reference.fragments);
     EXPECT_NEAR(all.fragments, fragments, 0.03 * fragments);
     EXPECT_LE(all.fragments, all.tasks);
@@ -62,9 +62,9 @@ TEST(CoarseTile, ComesCloseToTheFragmentsOfTheReference) {
 
 TEST(CoarseTile, StandsForTheRowsThatItLeavesOut) {
     const FrameWorkload frame = coarse_crowd();
-    const CoarseCounts all = draw(frame, {16, 1}, {});
-    const CoarseCounts some = draw(frame, {16, 1}, {1, 4, 1});
-    const CoarseCounts blocks = draw(frame, {8, 8}, {8, 2, 1});
+    const CoarseCounts all = count(frame, {16, 1}, {});
+    const CoarseCounts some = count(frame, {16, 1}, {1, 4, 1});
+    const CoarseCounts blocks = count(frame, {8, 8}, {8, 2, 1});
     EXPECT_NEAR(some.rows, all.rows, 0.1 * all.rows);
     EXPECT_NEAR(some.fragments, all.fragments, 0.1 * all.fragments);
     EXPECT_NEAR(blocks.fragments, all.fragments, 0.15 * all.fragments);
@@ -72,9 +72,9 @@ TEST(CoarseTile, StandsForTheRowsThatItLeavesOut) {
 
 TEST(CoarseTile, OutwardSpansAreAPixelWiderOnAverage) {
     const FrameWorkload frame = coarse_crowd();
-    const CoarseCounts inside = draw(frame, {16, 1}, {});
-    const CoarseCounts outward = draw(frame, {16, 1, true, 0}, {});
-    const CoarseCounts wider = draw(frame, {16, 1, true, 2}, {});
+    const CoarseCounts inside = count(frame, {16, 1}, {});
+    const CoarseCounts outward = count(frame, {16, 1, true, 0}, {});
+    const CoarseCounts wider = count(frame, {16, 1, true, 2}, {});
     const double more = (outward.tasks - inside.tasks) / inside.rows;
     EXPECT_GT(more, 0.7);
     EXPECT_LT(more, 2.2); // rows without a pixel inside get some
@@ -98,9 +98,9 @@ double end_of_pixel(const FrameWorkload& frame, int x, int y) {
     return static_cast<double>(frame.tile_begin[1]);
 }
 
-// Pixels end later from left to right, and columns 0, 4, 8 and 12 are drawn: 12 px apart from each
-// other, and 3 px from the last pixel, half of which is expected because all phases are alike.
-TEST(CoarseTile, ExpectsPixelsThatAreNotDrawnToEndLater) {
+// Pixels end later from left to right, and columns 0, 4, 8 and 12 are sampled: 12 px apart from
+// each other, and 3 px from the last pixel, half of which is expected because all phases are alike.
+TEST(CoarseTile, ExpectsPixelsThatAreNotSampledToEndLater) {
     GaussianCloud cloud;
     for (int i = 0; i < 300; ++i) {
         add_gaussian(cloud, {-2, 0, 4 + 1e-4F * static_cast<float>(i)}, glm::vec3(3), test::kNoTurn,
@@ -120,7 +120,7 @@ TEST(CoarseTile, ExpectsPixelsThatAreNotDrawnToEndLater) {
     EXPECT_LE(tile.walked(), end_of_pixel(frame, 15, 0));
 }
 
-TEST(CoarseTile, DrawsARowOfAnyTileAndPixelsOfAnyWidth) {
+TEST(CoarseTile, SamplesARowOfAnyTileAndPixelsOfAnyWidth) {
     GaussianCloud cloud;
     add_gaussian(cloud, {0, 0, 5}, glm::vec3(1), test::kNoTurn, 0.9F, {1, 1, 1});
     const FrameWorkload frame =

@@ -32,10 +32,10 @@ TEST(HiddenTiles, AreThoseWhoseEveryPixelLiesInTheHole) {
         const TileGrid grid(camera, 1 + below(20));
         std::uint64_t tiles = 0, pixels = 0;
         for (int tile = 0; tile < grid.tiles_x() * grid.tiles_y(); ++tile) {
-            const PixelBox drawn = grid.drawn_of(tile);
-            ASSERT_EQ(grid.is_hidden(tile), lies_in(drawn, camera.hole));
+            const PixelBox inside = grid.image_pixels_of(tile);
+            ASSERT_EQ(grid.is_hidden(tile), lies_in(inside, camera.hole));
             tiles += grid.is_hidden(tile) ? 0 : 1;
-            pixels += grid.is_hidden(tile) ? 0 : area(drawn);
+            pixels += grid.is_hidden(tile) ? 0 : area(inside);
         }
         ASSERT_EQ(grid.shown_tiles(), tiles);
         ASSERT_EQ(grid.shown_pixels(), pixels);

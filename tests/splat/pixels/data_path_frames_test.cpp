@@ -80,8 +80,8 @@ std::vector<PixelValue> drawn(DataPath& path, std::uint32_t first, int count, bo
             rows.x_end = 32;
             rows.first = rows.last = row;
             rows.tests = tests;
-            DrawnRow unused;
-            path.draw_rows(rows, &unused);
+            RowOutcome unused;
+            path.rasterise_rows(rows, &unused);
         }
         path.read_row(0, row, 32, &pixels[static_cast<std::size_t>(32 * row)]);
     }

@@ -11,7 +11,7 @@
 namespace degs {
 namespace {
 
-// Pixels of a segment that a packet ends.
+// Logs the pixels of a segment that end with a packet.
 void log_ended(EventLog& log, Cycle now, const TaskRun& run, std::uint32_t ended) {
     log.begin(
         log.kind("ended", {{"tile", {}}, {"splat", {}}, {"row", {}}, {"column", {}}, {"mask", {}}}),
@@ -23,9 +23,9 @@ void log_ended(EventLog& log, Cycle now, const TaskRun& run, std::uint32_t ended
     }
 }
 
-// The rows and columns of a tile that lie inside the image: a window may cut it on every side.
+// Logs the rows and columns of a tile that lie inside the image, which may cut it on every side.
 void log_tile(EventLog& log, Cycle now, TileNumber number, const JobTile& tile) {
-    const PixelRange rows = tile.drawn_rows(), columns = tile.drawn_columns();
+    const PixelRange rows = tile.image_rows(), columns = tile.image_columns();
     log.begin(log.kind("tile", {{"tile", {}},
                                 {"first_row", {}},
                                 {"last_row", {}},
@@ -124,7 +124,7 @@ void ArraySlice::start_of_simulation() {
     }
 }
 
-// Inlined: a call more per packet is 1 % of a run.
+// This is inlined, because a call more per packet is 1 % of a run.
 template <ArraySlice::Tasks Kind>
 inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket& packet) {
     const Cycle now = self_.local();
@@ -133,7 +133,7 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
     }
     stats_.packets++;
     stats_.window.include(now);
-    if (Kind == Tasks::Drawn) {
+    if (Kind == Tasks::Replayed) {
         end_pixels(packet);
         return;
     }
@@ -195,7 +195,7 @@ void ArraySlice::record(const TaskRun& run, Cycle date) {
 
 void ArraySlice::end_pixels(const TaskPacket& packet) {
     for (const TaskRun& run : packet) {
-        pixels_ended(context_of(run.task.context, run.tile), run, run.drawn.ended & run.part);
+        pixels_ended(context_of(run.task.context, run.tile), run, run.outcome.ended & run.part);
     }
 }
 
@@ -231,7 +231,7 @@ void ArraySlice::count_tile(TileNumber number) {
     }
 }
 
-void ArraySlice::end_drawn(const TaskRun& run, std::uint32_t ended, Cycle date) {
+void ArraySlice::end_replayed(const TaskRun& run, std::uint32_t ended, Cycle date) {
     self_.advance_to(date);
     pixels_ended(context_of(run.task.context, run.tile), run, ended);
 }
@@ -261,8 +261,8 @@ void ArraySlice::pump() {
 }
 
 void ArraySlice::RecordedPump::pump() {
-    if (slice_.drawn_) {
-        slice_.pump_packets<Tasks::Drawn>();
+    if (slice_.replays_) {
+        slice_.pump_packets<Tasks::Replayed>();
     } else {
         slice_.pump_packets<Tasks::Recorded>();
     }
@@ -283,8 +283,8 @@ void ArraySlice::start_tile(Context& context, TileNumber number) {
         const int row = s / segments_per_row_ * slices_ + index_;
         const int column = s % segments_per_row_ * segment_length_;
         const PixelRange segment{column, column + segment_length_ - 1};
-        const int drawn = segment.within(tile.drawn_columns()).size();
-        context.live_in_segment[s] = tile.drawn_rows().holds(row) ? drawn : 0;
+        const int in_image = segment.within(tile.image_columns()).size();
+        context.live_in_segment[s] = tile.image_rows().holds(row) ? in_image : 0;
         context.live_pixels += context.live_in_segment[s];
     }
 }

@@ -57,7 +57,8 @@ public:
     /// To the Slicing Units that share a row with this slice, stream by stream; empty unless they
     /// skip dead rows.
     sc_core::sc_vector<FifoPort<RegionEnded>> region_ended;
-    // Once per tile, one port per stream; kNoTile ends the reports of tiles that are granted.
+    // The slice reports once per tile, on one port per stream. Where tiles are granted one by one,
+    // kNoTile ends the reports.
     sc_core::sc_vector<FifoPort<SliceReport>> tile_done;  ///< to the Pixel Buffer
     sc_core::sc_vector<FifoPort<SliceReport>> tile_state; ///< to the Tile Monitor
 
@@ -65,36 +66,36 @@ public:
                RenderJob& job, int index, int slices, int segment_length);
 
     const Stats& stats() const { return stats_; }
-    // For tasks that TileDrawing has drawn: the Packing Unit tells their dates, which do not fall,
-    // in place of packets.
-    /// The tasks `mask` of a segment execute in the cycles `first` to `last`.
+    // For tasks whose outcomes a FunctionalModel has found: the Packing Unit tells the dates at
+    // which they execute, which do not fall, in place of sending packets.
+    /// Tells that the tasks `mask` of a segment execute in the cycles `first` to `last`.
     inline void execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle last);
-    /// Counts tasks by class; see DrawnTasks.
-    inline void count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful);
+    /// Counts tasks by class; see TaskOutcome.
+    inline void count_replayed(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful);
     /// Counts tasks by class that execute() has not counted.
-    void count_drawn(const SlotAccount& tasks) { stats_.slots += tasks; }
-    /// The pixels `ended` of these tasks end at `date`.
-    void end_drawn(const TaskRun& run, std::uint32_t ended, Cycle date);
-    /// All tasks of the cycle `date` have been told.
+    void count_replayed(const SlotAccount& tasks) { stats_.slots += tasks; }
+    /// Tells that the pixels `ended` of a segment end at `date`.
+    void end_replayed(const TaskRun& run, std::uint32_t ended, Cycle date);
+    /// Tells that nothing more follows about the tasks of the cycle `date`.
     inline void pass_packet(Cycle date);
-    /// The end of a tile comes at `date`, or as soon as what came before has been executed;
-    /// `packet`: together with the tasks of this cycle, which have all been told.
+    /// Tells that a tile ends at `date`, or as soon as what came before has been executed. With
+    /// `packet` it ends together with the tasks of this cycle, about which nothing more follows.
     void pass_end(TileNumber tile, std::int16_t context, Cycle date, bool packet);
 
     /// Records executed tasks in `part`, which may be null; before the simulation starts.
     void record(SlotPart* part) { part_ = part; }
-    /// Packets tell dates alone, and of their tasks those that end a pixel; before the simulation
-    /// starts.
-    void expect_drawn() { drawn_ = true; }
-    /// Packets taken, ended pixels and regions told, tiles handed over.
+    /// Expects packets that are replayed: they carry dates, and of their tasks only those that end
+    /// a pixel. Before the simulation starts.
+    void expect_replay() { replays_ = true; }
+    /// Logs packets taken, ended pixels and regions reported, and tiles handed over.
     void log_to(EventLog& log) override { log_ = &log; }
 
 private:
-    /// What to do with the tasks of packets: blend them, record them as well, or neither, since
-    /// they were drawn and recorded before.
-    enum class Tasks { Blended, Recorded, Drawn };
-    /// Runs the slice in place of itself unless its tasks are blended alone, so that pump() need
-    /// not ask.
+    /// What to do with the tasks of packets: blend them, record them as well, or neither, since a
+    /// FunctionalModel has blended them and the Packing Unit has recorded them.
+    enum class Tasks { Blended, Recorded, Replayed };
+    /// Takes the packets of a slice whose tasks are not only blended, so that the slice's own
+    /// pump(), which is the common one, need not ask.
     class RecordedPump : public Pumped {
     public:
         explicit RecordedPump(ArraySlice& slice) : slice_(slice) {}
@@ -107,7 +108,7 @@ private:
         Cycle date = 0;
         std::uint32_t mask = 0;
     };
-    /// Tile state: what is still alive in this slice's rows.
+    /// The state of a tile in this slice: which of its pixels are still alive.
     struct Context {
         TileNumber tile = kNoTile;
         int live_pixels = 0;
@@ -120,7 +121,7 @@ private:
     void start_of_simulation() override;
     void run();
     void pump() override;
-    /// The context, prepared for the tile if that starts with this call.
+    /// The context of the tile. If the tile is new to it, the context is prepared first.
     Context& context_of(std::int16_t context, TileNumber tile) {
         if (current_->tile != tile) {
             current_ = &contexts_[context - config_.first_context];
@@ -168,7 +169,7 @@ private:
     std::optional<EarlyBlender> early_; // without scoreboard
     TileEnd tiles_;
     SlotPart* part_ = nullptr;
-    bool drawn_ = false;
+    bool replays_ = false;
     RecordedPump recorded_{*this};
     Stats stats_;
     EventLog* log_ = nullptr;
@@ -180,11 +181,11 @@ ArraySlice::execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle l
     Recent& recent = context.recent[run.domain];
     check_reuse(recent, mask, first);
     recent.date = last;
-    count_drawn(mask, run.drawn.inside, run.drawn.useful);
+    count_replayed(mask, run.outcome.inside, run.outcome.useful);
 }
 
 inline __attribute__((always_inline)) void
-ArraySlice::count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful) {
+ArraySlice::count_replayed(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful) {
     const auto count = [](std::uint32_t bits) {
         return static_cast<std::uint64_t>(__builtin_popcount(bits));
     };

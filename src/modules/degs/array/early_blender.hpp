@@ -19,9 +19,10 @@ public:
     EarlyBlender(RenderJob& job, int writeback_cycles, bool tests = false)
         : job_(job), blender_(job, tests), latency_(writeback_cycles) {}
 
-    /// Executes the part of a segment's tasks at `date`, which never falls from call to call.
+    /// Executes the tasks of `run` that are in this packet at `date`, which must not fall from call
+    /// to call.
     BlendOutcome blend(const TaskRun& run, Cycle date);
-    /// Writes back all that is under way to a tile, of which no further task follows.
+    /// Writes back all pending updates of a tile, of which no further task follows.
     void finish(TileNumber tile);
     /// Pixels so far that a task updated although an earlier update was not written back yet.
     std::uint64_t hazards() const { return hazards_; }

@@ -32,7 +32,7 @@ FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams, const Fi
     take_in_order();
 }
 
-// All are free.
+// Puts all entries on the list of free ones, in the order of their numbers.
 void FeatureBuffer::take_in_order() {
     std::uint16_t entry = 0;
     for (Free& place : free_) {

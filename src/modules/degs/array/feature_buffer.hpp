@@ -48,7 +48,7 @@ public:
         }
     };
 
-    /// At least one entry per stream.
+    /// There must be at least one entry per stream.
     FeatureBuffer(int entries, int open_splats, int streams, const Fill& fill);
     explicit FeatureBuffer(int entries, int open_splats = 1, int streams = 1)
         : FeatureBuffer(entries, open_splats, streams, Fill()) {}
@@ -61,7 +61,7 @@ public:
         return wanted == current_key_ || (several_open_ && find(wanted, stream)) ||
                enter(wanted, now, streams_.data()[stream]);
     }
-    /// Entry of the splat that enters.
+    /// The entry of the splat that admit() has let in last.
     std::uint16_t current() const { return current_; }
     /// True if the parameters of the splat that enters can be read at `date`.
     bool filled_by(Cycle date) {
@@ -70,7 +70,7 @@ public:
         return filled;
     }
     void hold(std::uint16_t entry) { entries_.data()[entry].held++; }
-    /// One held task group is done; the entry is needed until `date`.
+    /// Gives up one hold on an entry, whose parameters are needed until `date`.
     __attribute__((always_inline)) void release(std::uint16_t entry, Cycle date) {
         Entry& e = entries_.data()[entry];
         e.needed_until = std::max(e.needed_until, date);
@@ -78,7 +78,7 @@ public:
             retire(entry, e.needed_until);
         }
     }
-    /// No more rows of the stream's open splats will come.
+    /// Closes the open splats of a stream, because no more of their rows will come.
     void close(Cycle now, std::size_t stream = 0);
     /// Date at which the next entry becomes free; kNever if none is on its way.
     Cycle next_free() const { return free_count_ == 0 ? kNever : first_free_->date; }

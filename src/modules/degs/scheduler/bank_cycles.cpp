@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cycle of a bank, and its intake.
+// The loop over the cycles of a bank, and how it takes in spans.
 #include "modules/degs/scheduler/bank_cycles_issue.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void BankCycles::run_from() {
     if (spans_ != nullptr) {
         run_by<kind, Intake::Single>();
     } else if (streams_.front().inputs.front().spans != nullptr) {
-        run_by<kind, Intake::Drawn>();
+        run_by<kind, Intake::Replayed>();
     } else {
         run_by<kind, Intake::Rings>();
     }
@@ -43,7 +43,7 @@ void BankCycles::run_by() {
     }
 }
 
-// The pixels of the span's next segment.
+// The mask of the pixels that the next segment of the span has.
 inline std::uint32_t BankCycles::cut_mask() const {
     const std::uint64_t high = std::uint64_t{1} << std::min(left_, segment_length_);
     return static_cast<std::uint32_t>(high - low_);
@@ -114,14 +114,14 @@ inline __attribute__((always_inline)) void BankCycles::accept() {
     }
 }
 
-// The stream, which has no span to take now, has none before this date, as long as its tiles stay
-// as they are.
+// The date before which the stream, which has no span to take now, will have none, as long as its
+// tiles stay as they are.
 inline __attribute__((always_inline)) Cycle BankCycles::next_span_from(const BankStream& stream) {
     const BankStream::Input& input = stream.inputs.front();
     if (!takes(stream, input)) {
         return kNever;
     }
-    const DrawnSpans& spans = *input.spans;
+    const SpanReplay& spans = *input.spans;
     return spans.empty() ? spans.quiet_until() : spans.head_date();
 }
 
@@ -131,7 +131,7 @@ inline __attribute__((always_inline)) bool BankCycles::open_span() {
     if constexpr (intake == Intake::Single) {
         return take_from<kind, intake>(streams_.front());
     }
-    if (intake == Intake::Drawn && now_ < spans_from_) {
+    if (intake == Intake::Replayed && now_ < spans_from_) {
         return false;
     }
     BankStream* const first = next_stream_;
@@ -142,7 +142,7 @@ inline __attribute__((always_inline)) bool BankCycles::open_span() {
         if (take_from<kind, intake>(stream)) {
             return true;
         }
-        if constexpr (intake == Intake::Drawn) {
+        if constexpr (intake == Intake::Replayed) {
             from = std::min(from, next_span_from(stream));
         }
     } while (next_stream_ != first);
@@ -151,12 +151,13 @@ inline __attribute__((always_inline)) bool BankCycles::open_span() {
 }
 
 template <BankCycles::Intake intake>
-inline __attribute__((always_inline)) DrawnSpans&
+inline __attribute__((always_inline)) SpanReplay&
 BankCycles::spans_of(const BankStream::Input& input) const {
     return intake == Intake::Single ? *spans_ : *input.spans;
 }
 
-// The one whose item has arrived first, ties by input; nullptr: none may be taken.
+// The input of the stream whose item has arrived first; of several, the first input. nullptr if no
+// item may be taken.
 template <BankCycles::Intake intake>
 inline __attribute__((always_inline)) BankStream::Input*
 BankCycles::earliest_input(BankStream& stream) {
@@ -183,7 +184,7 @@ BankCycles::earliest_input(BankStream& stream) {
     return source;
 }
 
-// False if the span has to wait for the parameters of its splat.
+// Asks the Feature Buffer for an entry. False if the span has to wait for its splat's parameters.
 inline __attribute__((always_inline)) bool
 BankCycles::admits(const BankStream& stream, TileNumber number, std::uint32_t splat) {
     if (!features_.admit(number, splat, now_, stream.index)) {
@@ -205,9 +206,9 @@ inline __attribute__((always_inline)) void BankCycles::start(const BankStream& s
     stats_.tasks_in += length;
 }
 
-// What becomes of the tasks of the span that starts.
+// Notes where the outcomes of the span that starts are.
 template <class Row>
-inline __attribute__((always_inline)) void BankCycles::start_drawn(const Row& row) {
+inline __attribute__((always_inline)) void BankCycles::start_replay(const Row& row) {
     row_inside_ = &row.inside;
     row_useful_ = &row.useful;
     row_ended_ = &row.ended;
@@ -215,7 +216,8 @@ inline __attribute__((always_inline)) void BankCycles::start_drawn(const Row& ro
     useful_ += row.useful.count();
 }
 
-// False if no span of the stream may be taken. Ends of tiles on the way cost nothing.
+// Takes the next span of the stream, and the ends of tiles before it, which cost nothing. False if
+// no span may be taken.
 template <BankCycles::Kind kind, BankCycles::Intake intake>
 inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& stream) {
     for (;;) {
@@ -226,8 +228,8 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
         TileNumber number = kNoTile;
         bool row = false;
         if constexpr (intake != Intake::Rings) {
-            DrawnSpans& spans = spans_of<intake>(*source);
-            const DrawnSpans::Row& span = spans.front();
+            SpanReplay& spans = spans_of<intake>(*source);
+            const SpanReplay::Row& span = spans.front();
             number = span.tile;
             row = !span.end();
             if (row && !admits(stream, number, span.splat)) {
@@ -238,7 +240,7 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
             }
             if (row) {
                 start(stream, span.row, span.x0, span.length);
-                start_drawn(span);
+                start_replay(span);
                 if constexpr (kind == Kind::General) {
                     taken_span_.splat = span.splat;
                 }
@@ -257,8 +259,8 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
             if (row) {
                 start(stream, item.span->y, item.span->x0, item.span->length);
                 if (kind == Kind::Plain || slice_ != nullptr) {
-                    taken_ = item.drawn;
-                    start_drawn(taken_);
+                    taken_ = item.outcome;
+                    start_replay(taken_);
                 }
                 if constexpr (kind == Kind::General) {
                     taken_span_ = *item.span;
@@ -274,7 +276,8 @@ inline __attribute__((always_inline)) bool BankCycles::take_from(BankStream& str
     }
 }
 
-// False if the queue has no room; the segment is then cut later.
+// Cuts the next segment off the span and queues or drops it. False if the queue has no room; the
+// segment is then cut later.
 template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) bool BankCycles::cut_segment() {
     Domain& domain = cut_tile_->domains[cut_];

@@ -21,7 +21,7 @@ namespace degs {
 /// segments, and ends tiles; a bank with select_cycles then chooses the segments of a later cycle.
 class BankCycles {
 public:
-    /// What an Issue Bank has, for its cycles.
+    /// The parts of an Issue Bank that its cycles work on.
     struct Parts {
         const sc_core::sc_object& bank;
         const IssueBank::Config& config;
@@ -48,19 +48,19 @@ public:
     void run();
 
 private:
-    /// What the loop over cycles chooses a domain by.
+    /// By what the loop over cycles chooses the domain that issues next.
     enum class Choice {
         InTurn, ///< few domains of a tile, round robin
         Keyed,  ///< keys, in the oldest tile of a stream that has a domain to issue from
         Oldest  ///< keys, in all tiles at once: each stream has one that may issue
     };
-    /// Where spans come from. The loop over cycles asks for nothing else.
+    /// Where spans come from. The loop over cycles is compiled for each, so that it need not ask.
     enum class Intake {
-        Single, ///< DrawnSpans of the only tile stream
-        Drawn,  ///< DrawnSpans, one per stream
-        Rings   ///< rings of the crossbar
+        Single,   ///< SpanReplay of the only tile stream
+        Replayed, ///< SpanReplay, one per stream
+        Rings     ///< rings of the crossbar
     };
-    /// What the loop over cycles asks about.
+    /// How much the loop over cycles has to ask about.
     enum class Kind {
         Plain,  ///< nothing more: packets are counted, and segments go in the cycle of the choice
         General ///< whether the Packing Unit looks at tasks, and whether the bank chooses ahead
@@ -77,12 +77,12 @@ private:
     static constexpr std::uint64_t kNothing = ~std::uint64_t{0}; // no domain is ready
 
     struct Waiting {
-        std::uint32_t mask, inside, ended; // see DrawnTasks
+        std::uint32_t mask, inside, ended; // see TaskOutcome
         std::uint32_t key;                 // see next_key_
         Waiting* next;
         std::uint16_t feature;
     };
-    /// What the Packing Unit also needs of a waiting segment.
+    /// What the Packing Unit also needs of a waiting segment, if it looks at tasks.
     struct Values {
         std::uint32_t splat = 0, useful = 0;
         double g0 = 0, d0 = 0;
@@ -128,13 +128,13 @@ private:
     template <Kind kind, Intake intake>
     inline bool take_from(BankStream& stream);
     template <Intake intake>
-    inline DrawnSpans& spans_of(const BankStream::Input& input) const;
+    inline SpanReplay& spans_of(const BankStream::Input& input) const;
     template <Intake intake>
     inline BankStream::Input* earliest_input(BankStream& stream);
     inline bool admits(const BankStream& stream, TileNumber number, std::uint32_t splat);
     inline void start(const BankStream& stream, int row, int x0, int length);
     template <class Row>
-    inline void start_drawn(const Row& row);
+    inline void start_replay(const Row& row);
     [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number);
     template <Kind kind, Choice choice>
     inline bool cut_segment();
@@ -150,8 +150,8 @@ private:
     void end_pixels(const Termination& message);
     [[gnu::noinline]] void see_contexts();
     void end_pixels(Domain& domain, std::uint32_t mask) const;
-    // Drawn tasks report the ends of their pixels when they are issued, so a report that the ring
-    // does not hold yet is due later than now.
+    // True if terminations may be taken now. Replayed tasks report the ends of their pixels when
+    // they are issued, so a report that the ring does not hold yet is due later than now.
     template <Kind kind>
     bool has_terminations() const {
         return kind == Kind::Plain || slice_ != nullptr
@@ -159,7 +159,8 @@ private:
                    : self_.arrived(terminations_);
     }
     void list_started();
-    // An item that is there needs no proof.
+    // True if an item may be read now. Only if there is none does the answer need a proof that none
+    // will come for this date.
     bool arrived(FifoBase& fifo) const {
         return fifo.empty() ? now_ >= fifo.quiet_until() && self_.arrived(fifo)
                             : fifo.head_date() <= now_;
@@ -207,14 +208,15 @@ private:
                              std::uint32_t ended);
     [[gnu::noinline]] Cycle pack_ends(const Tile& tile, int number, std::uint32_t tasks,
                                       std::uint32_t ended);
-    [[gnu::noinline]] void end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date);
+    [[gnu::noinline]] void end_replayed(const Tile& tile, int number, std::uint32_t tasks,
+                                        Cycle date);
     template <Choice choice>
     inline void pop(Tile& tile, int number);
     [[gnu::noinline]] void finish_tiles();
     void finish_tiles(BankStream& stream);
     void finish();
 
-    // A key names its domain, unless there is no room for that.
+    // True if a key contains the number of its domain: there are bits enough.
     bool keys_name_domains() const { return key_mask_ != 0 || domain_count_ == 1; }
     std::uint32_t after(int number) const { return number + 1 < domain_count_ ? number + 1 : 0; }
 
@@ -231,7 +233,7 @@ private:
     std::unique_ptr<Tile>& place_of(std::size_t stream, std::size_t turn) {
         return tiles_[stream * (tile_mask_ + 1) + (turn & tile_mask_)];
     }
-    /// Of a turn that has been entered.
+    /// The tile of a turn that has been entered.
     Tile& tile_at(std::size_t stream, std::size_t turn) { return *place_of(stream, turn); }
 
     const sc_core::sc_object& bank_;
@@ -240,7 +242,7 @@ private:
     PackingUnit& packing_;
     ArraySlice* slice_; // nullptr: tasks are blended when they execute
     std::vector<BankStream>& streams_;
-    DrawnSpans* spans_; // of the only stream; null if there are several, or rings
+    SpanReplay* spans_; // of the only stream; null if there are several, or rings
     DatedFifo<Termination>& terminations_;
     const Segmenter& segmenter_;
     FeatureBuffer& features_;
@@ -264,9 +266,9 @@ private:
     std::vector<Values> values_; // of each of these, for Kind::General alone
     Waiting* free_ = nullptr;
     std::size_t size_ = 0;     // segments that wait
-    std::size_t issuable_ = 0; // of these, in tiles that may issue
-    // The smallest key of the ready domains is the one to issue. It is the number of the domain,
-    // if there is room for that, below the order of arrival.
+    std::size_t issuable_ = 0; // segments among them whose tiles may issue
+    // The ready domain with the smallest key issues next. A key is the order of arrival and, in its
+    // lowest bits if there is room for that, the number of the domain.
     std::uint32_t next_key_ = 0, key_step_ = 1;
     std::uint32_t key_mask_ = 0; // of the domain in a key; 0: keys are the order of arrival alone
     // Stream by stream, by their turn modulo a power of two; null before the first tile.
@@ -286,12 +288,12 @@ private:
     Tile* cut_tile_ = nullptr;
     int cut_ = 0;           // domain of the span's next segment
     std::uint64_t low_ = 1; // bit of the segment's first pixel
-    const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see DrawnRow
+    const RowMask *row_inside_ = nullptr, *row_ended_ = nullptr; // see RowOutcome
     const RowMask* row_useful_ = nullptr;
-    DrawnRow taken_;          // a copy, unless its ring keeps it
+    RowOutcome taken_;        // a copy, unless its ring keeps it
     RowSpan taken_span_;      // for Kind::General alone
     BankStream* next_stream_; // whose span is taken next
-    Cycle spans_from_ = 0;    // for Intake::Drawn: no stream has a span before, if no tile changes
+    Cycle spans_from_ = 0; // for Intake::Replayed: no stream has a span before, if no tile changes
     bool features_full_ = false, no_room_ = false, width_limited_ = false;
     OpenPacket& packet_;
     std::size_t closing_ = 0;    // tiles of which nothing more will be taken

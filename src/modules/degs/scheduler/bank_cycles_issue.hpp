@@ -9,7 +9,7 @@
 
 namespace degs {
 
-// Returns the number of segments issued.
+// Issues segments in this cycle, as the choice says. Returns how many.
 template <BankCycles::Kind kind, BankCycles::Intake intake, BankCycles::Choice choice>
 inline __attribute__((always_inline)) int BankCycles::issue() {
     no_room_ = false;
@@ -49,7 +49,7 @@ inline __attribute__((always_inline)) std::uint64_t BankCycles::find(const Tile&
     return found >= DomainLanes::kTop ? kNothing : found;
 }
 
-// The domain that find() has found.
+// The number of the domain that find() has found, whose rank is `rank`.
 template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) int BankCycles::number_of(const Tile& tile,
                                                                 std::uint64_t rank) const {
@@ -161,7 +161,7 @@ inline __attribute__((always_inline)) std::size_t BankCycles::next_stream(Cycle 
     return least_ready<choice>(slot);
 }
 
-// For several streams, as issue_in_order().
+// Issues like issue_in_order(), but from several streams.
 template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) int BankCycles::issue_from_all() {
     int issued = 0;
@@ -184,7 +184,7 @@ inline __attribute__((always_inline)) int BankCycles::issue_from_all() {
     return issued;
 }
 
-// For several streams each of which issues from one tile at most.
+// Issues from several streams, each of which has at most one tile that may issue.
 template <BankCycles::Kind kind>
 inline __attribute__((always_inline)) int BankCycles::issue_oldest() {
     int issued = 0;
@@ -272,7 +272,7 @@ public:
         if constexpr (ends) {
             const std::uint32_t ended = take_lowest(left, count, room) & ended_;
             if (ended != 0) {
-                bank_.end_drawn(tile_, number_, ended, slot);
+                bank_.end_replayed(tile_, number_, ended, slot);
             }
         }
         return std::min(count, room);
@@ -288,7 +288,7 @@ private:
     std::uint32_t ended_;
 };
 
-// Returns the execution date of the last one.
+// Counts the tasks of a segment into packets. Returns the date at which the last one executes.
 inline __attribute__((always_inline)) Cycle BankCycles::count_tasks(const Tile& tile, int number,
                                                                     std::uint32_t tasks, int count,
                                                                     std::uint32_t ended) {
@@ -299,7 +299,7 @@ inline __attribute__((always_inline)) Cycle BankCycles::count_tasks(const Tile& 
     return packet_.pack(now_, tasks, count, sink);
 }
 
-// False if the Packing Buffer has no room.
+// Issues the next segment of a domain. False if the Packing Buffer has no room.
 template <BankCycles::Kind kind, BankCycles::Choice choice>
 inline __attribute__((always_inline)) bool BankCycles::issue_one(Tile& tile, int number,
                                                                  Cycle slot) {

@@ -10,7 +10,8 @@ namespace {
 // One scan over the domains of all tiles pays off up to so many of them.
 constexpr std::size_t kMostDomainsOfAll = 4096;
 
-// Tiles in flight find theirs by their turn modulo a power of two.
+// The number of places for tiles in flight of a stream. It is a power of two, because a tile finds
+// its place by its turn modulo that number.
 std::size_t places_of(const BankCycles::Parts& parts) {
     const int tiles = parts.streams.size() == 1 ? parts.tiles_in_flight : parts.contexts;
     std::size_t places = 1;
@@ -118,21 +119,22 @@ void BankCycles::enter_tile(BankStream& stream, TileNumber number) {
     tile.context = context_in_turn(stream.entering, contexts_, first_context);
     tile.cursor = 0;
     tile.lanes.set_dates(now_);
-    const PixelRange drawn = job_.tiles[number].drawn_columns();
+    const PixelRange columns = job_.tiles[number].image_columns();
     Domain* domain = tile.domains;
     for (const Segmenter::Domain& place : segmenter_.domains()) {
         domain->ended = 0;
         domain->live = kAllPixels;
-        end_pixels(*domain++, ~bits_of(drawn.relative_to(place.column), segment_length_));
+        end_pixels(*domain++, ~bits_of(columns.relative_to(place.column), segment_length_));
     }
     stream.entered = true;
     list_started();
     if (log_ != nullptr) {
-        log_->enter(now_, number, tile.context, drawn);
+        log_->enter(now_, number, tile.context, columns);
     }
 }
 
-// The keys have come to their end: the segments that wait get the lowest ones, in their order.
+// Called when the largest key has been given: the waiting segments get the lowest keys, in their
+// order, so that counting can go on.
 void BankCycles::renumber() {
     std::vector<Waiting*> waiting;
     for (const std::unique_ptr<Tile>& tile : tiles_) {
@@ -200,7 +202,7 @@ void BankCycles::end_pixels(const Termination& message) {
     }
 }
 
-// Tasks of a segment go nowhere.
+// Drops tasks of a segment whose pixels have all ended, and takes them out of the totals.
 void BankCycles::drop(const Waiting& segment, std::uint32_t tasks) {
     stats_.tasks_dropped += __builtin_popcount(tasks);
     inside_ -= __builtin_popcount(tasks & segment.inside);
@@ -286,12 +288,12 @@ TaskRun BankCycles::run_of(const Tile& tile, int number, const Waiting& segment)
     run.task.column = inside_tile(place.column);
     run.task.offset = values.offset;
     run.task.context = tile.context;
-    run.drawn = {segment.inside, values.useful, segment.ended};
+    run.outcome = {segment.inside, values.useful, segment.ended};
     return run;
 }
 
-// Pixels of a domain end with these tasks of a packet.
-void BankCycles::end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date) {
+// Tells the slice that pixels of a domain end with these tasks of a packet.
+void BankCycles::end_replayed(const Tile& tile, int number, std::uint32_t tasks, Cycle date) {
     const Segmenter::Domain& place = segmenter_.domains()[number];
     TaskRun run;
     run.tile = tile.number;
@@ -299,7 +301,7 @@ void BankCycles::end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cy
     run.task.row = inside_tile(place.row);
     run.task.column = inside_tile(place.column);
     run.task.context = tile.context;
-    slice_->end_drawn(run, tasks, date);
+    slice_->end_replayed(run, tasks, date);
 }
 
 void BankCycles::finish_tiles() {
@@ -330,7 +332,8 @@ void BankCycles::finish_tiles(BankStream& stream) {
     }
 }
 
-// kNoTile: that of the stream.
+// Counts an end of tile `number` that an input has sent; with kNoTile the stream itself ends. A
+// tile is over for the bank once all inputs of its stream have sent its end.
 void BankCycles::take_end(BankStream& stream, TileNumber number) {
     if (++stream.ends_seen != stream.inputs.size()) {
         return;
@@ -363,7 +366,7 @@ void BankCycles::finish() {
         executed[Slot::Useful] = useful_;
         executed[Slot::Boundary] = stats_.tasks_issued - inside_;
         executed[Slot::Terminated] = inside_ - useful_;
-        slice_->count_drawn(executed);
+        slice_->count_replayed(executed);
     }
     self_.finish();
 }

@@ -18,7 +18,7 @@ public:
               "tile", {{"tile", {}}, {"context", {}}, {"first_column", {}}, {"last_column", {}}})),
           over_(log.kind("over", {{"tile", {}}, {"context", {}}})) {}
 
-    /// A tile begins, of which the image has these columns.
+    /// Logs that a tile begins, of which the image has these columns.
     void enter(Cycle now, TileNumber number, std::int16_t context, const PixelRange& columns) {
         log_.begin(tile_, now);
         log_.put(number);
@@ -26,7 +26,7 @@ public:
         log_.put(columns.first);
         log_.put(columns.last);
     }
-    /// All of it has been issued or dropped.
+    /// Logs that all segments of the tile have been issued or dropped.
     void leave(Cycle now, TileNumber number, std::int16_t context) {
         log_.begin(over_, now);
         log_.put(number);

@@ -9,15 +9,15 @@
 
 namespace degs {
 
-class DrawnSpans;
+class SpanReplay;
 
 /// How far an Issue Bank is with the tiles of one tile stream. These come one after another and are
 /// numbered by their turn.
 struct BankStream {
-    /// From a Span Unit that reaches the bank.
+    /// The spans that one Span Unit sends to the bank.
     struct Input {
         DatedFifo<SpanItem>* ring = nullptr;
-        DrawnSpans* spans = nullptr; ///< read in place of the ring, unless it is null
+        SpanReplay* spans = nullptr; ///< read in place of the ring, unless it is null
         std::size_t turn = 0;        ///< ends of tiles that it has delivered
     };
 

@@ -20,7 +20,7 @@ namespace degs {
 /// about. A bank either has domains wait in turn, or gives each one that waits a key.
 class DomainLanes {
 public:
-    /// Keys lie below. It is the key of a domain without segments.
+    /// The key of a domain without segments. All other keys are smaller.
     static constexpr std::uint32_t kTop = std::uint32_t{1} << 31U;
     static constexpr int kMostInTurn = 64;
 
@@ -47,16 +47,16 @@ public:
     std::uint32_t mask() const { return mask_; }
     std::uint32_t key(int domain) const { return keys_[domain]; }
     void set_key(int domain, std::uint32_t key) { keys_[domain] = key; }
-    /// Segments that wait; for longest() alone.
+    /// Sets how many segments wait in a domain. Only longest() needs it.
     void set_length(int domain, std::uint32_t length) { lengths_[domain] = ~length; }
-    /// The domain has segments, or none; for next_from() and until_next_in_turn() alone.
+    /// Sets whether a domain has segments. Only next_from() and until_next_in_turn() need it.
     void set_waiting(int domain, bool waits) {
         const std::uint64_t bit = std::uint64_t{1} << domain;
         waiting_ = waits ? waiting_ | bit : waiting_ & ~bit;
     }
-    /// The domain may be touched from `date` on.
+    /// Sets the date from which a domain may be touched.
     void set_date(int domain, Cycle date) { dates_[domain] = static_cast<std::uint32_t>(date); }
-    /// All domains may be touched from `date` on.
+    /// Sets the date from which every domain may be touched.
     void set_dates(Cycle date) { std::fill_n(dates_, size_, static_cast<std::uint32_t>(date)); }
 
     /// The smallest key of the domains that may be touched at `date`; not below kTop if there is

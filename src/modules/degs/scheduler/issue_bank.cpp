@@ -61,9 +61,9 @@ void IssueBank::start_of_simulation() {
         start_log();
     }
     if (spans_ != nullptr) {
-        const auto& drawn_spans = spans_->hand_over(self_);
-        for (std::size_t stream = 0; stream < drawn_spans.size(); ++stream) {
-            streams_[stream].inputs.front().spans = drawn_spans[stream].get();
+        const auto& replays = spans_->hand_over(self_);
+        for (std::size_t stream = 0; stream < replays.size(); ++stream) {
+            streams_[stream].inputs.front().spans = replays[stream].get();
         }
     }
     cycles_ = std::make_unique<BankCycles>(BankCycles::Parts{

@@ -79,7 +79,7 @@ public:
         std::uint64_t segments_dropped = 0, tasks_dropped = 0;
         Cycle busy = 0; ///< cycles with an issue
         std::uint64_t queue_high_water = 0;
-        /// A segment of these tasks is dropped.
+        /// Counts a segment of these tasks as dropped.
         void drop(std::uint32_t mask) {
             segments_dropped++;
             tasks_dropped += __builtin_popcount(mask);
@@ -111,11 +111,12 @@ public:
               int contexts);
     ~IssueBank() override;
 
-    /// The only Span Units that reach the bank; before the simulation starts.
+    /// Tells the only Span Units that reach the bank; before the simulation starts.
     void read_from(SpanStage& spans) { spans_ = &spans; }
     /// Writes what is issued into `trace`; before the simulation starts.
     void trace_to(IssueTrace& trace) { trace_ = &trace; }
-    /// Spans and ends of tiles taken, ended pixels and contexts seen, segments issued, packets.
+    /// Logs spans and ends of tiles taken, ended pixels and contexts seen, segments issued,
+    /// packets.
     void log_to(EventLog& log) override { log_ = &log; }
     const Stats& stats() const { return stats_; }
     const FeatureBuffer& features() const { return features_; }

@@ -60,7 +60,8 @@ public:
         const Cycle waiting = unwritten(now);
         return waiting == 0 || waiting * width_ + (tasks_ + tasks) < most_;
     }
-    /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
+    /// The latest date up to which the bank may sleep, because an open packet has to go then;
+    /// kNever if no packet is open.
     Cycle open_until() const { return open() ? slot_ - latency_ : kNever; }
     bool due(Cycle now) const { return open() && slot_ - latency_ <= now; }
     /// True if the slice gets nothing in some of the cycles up to `until`.
@@ -76,7 +77,7 @@ public:
     /// date of the last one.
     template <class Sink>
     inline Cycle pack(Cycle now, std::uint32_t mask, int count, Sink& sink);
-    /// The open packet is sent at `now`; returns its execution date.
+    /// Sends the open packet at `now`. Returns the date at which it executes.
     Cycle sent(Cycle now) {
         tasks_ = 0;
         next_write_ = std::max(next_write_, now * writes_) + 1;

@@ -62,7 +62,8 @@ bool PacketPorts::reads_parameters(int entry) {
     return true;
 }
 
-// Stretch by stretch of pixels in ascending SRAM banks, which therefore do not meet each other.
+// Takes pixels stretch by stretch. The SRAM banks of a stretch ascend, so that two of its pixels
+// never want the same one.
 std::uint32_t PacketPorts::take_pixels(const BlendTask& task, std::uint32_t mask, int most) {
     std::uint64_t* const ports = ports_of(task.context);
     const int banks = config_.pixels.sram_banks;
@@ -87,8 +88,8 @@ std::uint32_t PacketPorts::take_pixels(const BlendTask& task, std::uint32_t mask
     return taken;
 }
 
-// Whether the last port is taken, of up to 32 SRAM banks from `bank` on, no further than the last
-// one.
+// A bit for each of up to 32 SRAM banks from `bank` on: set if all ports of the bank are taken,
+// which the last port shows. There are no bits beyond the last bank.
 std::uint32_t PacketPorts::full_from(const std::uint64_t* ports, int bank) const {
     const std::uint64_t* const last = ports + (config_.pixels.ports - 1) * words_;
     const std::size_t word = bank / kWordBits;
@@ -100,7 +101,7 @@ std::uint32_t PacketPorts::full_from(const std::uint64_t* ports, int bank) const
     return static_cast<std::uint32_t>(bits);
 }
 
-// Takes the first port that is free in every SRAM bank of the pixels.
+// Takes the first free port in the SRAM bank of each of the pixels.
 void PacketPorts::use(std::uint64_t* ports, int bank, std::uint32_t pixels) const {
     const std::size_t word = bank / kWordBits;
     const int shift = bank % kWordBits;

@@ -29,7 +29,7 @@ public:
 
     explicit PacketPorts(const Config& config);
 
-    /// For the next packet.
+    /// Frees all ports, for the next packet.
     void clear() {
         ++packet_;
         reads_.clear();

@@ -21,7 +21,8 @@ void PackingUnit::separate(Process& bank, const TaskRun& run) {
     first_tile_ = run.tile;
 }
 
-/// Tasks that have to be looked at: they want ports, or have been drawn and are recorded.
+/// Puts tasks into packets that have to be looked at, because they want ports, or because they are
+/// replayed and recorded.
 class PackingUnit::PickySink : public Sink {
 public:
     PickySink(PackingUnit& unit, Process& bank, const TaskRun& run, std::uint32_t mask, int entry)
@@ -31,7 +32,7 @@ public:
         if (unit_.ports_) {
             unit_.ports_->clear();
         }
-        if (unit_.records_drawn()) {
+        if (unit_.records_replay()) {
             unit_.part_->settle(run_.tile);
         }
     }
@@ -55,18 +56,18 @@ public:
 
 private:
     void put(std::uint32_t part, Cycle slot) {
-        if (!unit_.draws()) {
+        if (!unit_.replays()) {
             unit_.put(run_, mask_, part);
             return;
         }
         if (unit_.part_ != nullptr) {
             unit_.record_tasks(run_, part);
         }
-        const std::uint32_t ended = part & run_.drawn.ended;
+        const std::uint32_t ended = part & run_.outcome.ended;
         if (ended != 0 && unit_.packets_ && unit_.part_ != nullptr) {
             unit_.put(run_, mask_, part); // the slice ends the pixels when it reads the packet
         } else if (ended != 0) {
-            unit_.slice_->end_drawn(run_, ended, slot);
+            unit_.slice_->end_replayed(run_, ended, slot);
         }
     }
 
@@ -78,13 +79,13 @@ private:
 Cycle PackingUnit::add_picky(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
     PickySink sink(*this, bank, run, mask, entry);
     const Cycle last = packet_.pack(bank.local(), mask, __builtin_popcount(mask), sink);
-    if (draws()) {
+    if (replays()) {
         slice_->execute(run, mask, sink.first(), last);
     }
     return last;
 }
 
-// In the open packet.
+// Records tasks that go to the open packet.
 void PackingUnit::record_tasks(const TaskRun& run, std::uint32_t part) {
     const auto add = [&](Slot slot, std::uint32_t tasks) {
         if (tasks != 0) {
@@ -94,13 +95,13 @@ void PackingUnit::record_tasks(const TaskRun& run, std::uint32_t part) {
     if (!packet_.open() || run.tile != latest_tile_) { // else this cycle is known to be the tile's
         part_->work(run.tile, packet_.slot(), packet_.slot() + 1);
     }
-    add(Slot::Useful, part & run.drawn.useful);
-    add(Slot::Boundary, part & ~run.drawn.inside);
-    add(Slot::Terminated, part & run.drawn.inside & ~run.drawn.useful);
+    add(Slot::Useful, part & run.outcome.useful);
+    add(Slot::Boundary, part & ~run.outcome.inside);
+    add(Slot::Terminated, part & run.outcome.inside & ~run.outcome.useful);
     latest_tile_ = run.tile;
 }
 
-// The open packet, of drawn tasks.
+// Records the empty slots of the open packet, whose tasks are replayed.
 void PackingUnit::record_packet(Slot cause) {
     if (packet_.room() != 0) {
         part_->add(cause, latest_tile_, packet_.slot(), packet_.room());
@@ -137,7 +138,7 @@ bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, 
     return queued + packets <= most && packet_.can_write_packets(now, complete);
 }
 
-// All runs of the packet are of one span.
+// The first task stands for all, because without reorganisation a packet has tasks of one span.
 bool PackingUnit::joins(const TaskRun& run) const {
     if (!packet_.open()) {
         return true;
@@ -171,14 +172,14 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context)
     }
 }
 
-// Tells the slice that a tile ends.
+// Tells the slice of the end of a tile without the ring.
 void PackingUnit::tell_end(Cycle slot, bool packet) {
     slice_->pass_end(ended_tile_, ended_context_, slot, packet);
 }
 
 void PackingUnit::send(Process& bank, Slot cause) {
     idle_[cause] += packet_.room();
-    if (records_drawn()) {
+    if (records_replay()) {
         record_packet(cause);
     }
     if (packets_) {

@@ -56,19 +56,19 @@ public:
     FifoPort<TaskPacket> out;
 
     PackingUnit(const sc_core::sc_module_name& name, const Config& config);
-    /// Tells `slice` what executes when, in place of packets: the tasks have been drawn; before the
-    /// simulation starts. With a timeline, which shows the Packing Buffer, packets without tasks
-    /// tell it.
+    /// Tells `slice` what executes when in place of sending packets, because a FunctionalModel has
+    /// found the outcomes of the tasks; before the simulation starts. With a timeline, which shows
+    /// the Packing Buffer, packets without tasks go through the ring and tell it.
     void tell(ArraySlice& slice, bool timeline) {
         slice_ = &slice;
         packets_ = timeline;
     }
-    bool draws() const { return slice_ != nullptr; }
+    bool replays() const { return slice_ != nullptr; }
     ArraySlice* slice() const { return slice_; }
     const Config& config() const { return config_; }
-    /// The packets told without the ring.
+    /// The packets that the slice was told of without the ring.
     const PassedPackets& passed() const { return passed_; }
-    /// Records empty slots in `part`, and the tasks if they have been drawn; it may be null; before
+    /// Records empty slots in `part`, which may be null, and the tasks if they are replayed; before
     /// the simulation starts.
     void record(SlotPart* part) { part_ = part; }
 
@@ -103,12 +103,12 @@ public:
     OpenPacket& packet() { return packet_; }
 
     // For a bank that counts the tasks in packets by itself, in place of room() and add().
-    /// True if packets need only be counted: their tasks have been drawn, nobody records them, and
+    /// True if packets need only be counted: their tasks are replayed, nobody records them, and
     /// nothing but the width limits a packet.
-    bool counts() const { return draws() && !packets_ && !picky() && config_.reorganisation; }
-    /// The open packet leaves the bank at `now`.
+    bool counts() const { return replays() && !packets_ && !picky() && config_.reorganisation; }
+    /// Hands over the open packet, which leaves the bank at `now`.
     inline void send_counted(Cycle now);
-    /// Another packet comes, so that the slots before it that stayed empty count.
+    /// Counts the slots that have stayed empty since the last packet, because another one comes.
     void end_idle() {
         if (idle_pending_) {
             settle_idle();
@@ -128,9 +128,9 @@ private:
         ring_ = &out.ring();
         passed_.hold(ring_->depth());
     }
-    bool records_drawn() const { return draws() && part_ != nullptr; }
-    // Tasks have to be looked at before they go into a packet.
-    bool picky() const { return ports_.has_value() || records_drawn(); }
+    bool records_replay() const { return replays() && part_ != nullptr; }
+    // True if tasks have to be looked at before they go into a packet.
+    bool picky() const { return ports_.has_value() || records_replay(); }
     // Without reorganisation: `run` may go to the packet that is open, if any.
     bool joins(const TaskRun& run) const;
     [[gnu::noinline]] bool fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry);
@@ -152,8 +152,8 @@ private:
     Config config_;
     DatedFifo<TaskPacket>* ring_ = nullptr;
     ArraySlice* slice_ =
-        nullptr;          // executes drawn tasks without packets; nullptr: packets go to the ring
-    bool packets_ = true; // go through the ring
+        nullptr; // executes replayed tasks without packets; nullptr: packets go to the ring
+    bool packets_ = true; // packets go through the ring
     PassedPackets passed_;
     OpenPacket packet_;      // is filled in its cell of the ring
     bool ends_tile_ = false; // it carries the end of a tile
@@ -197,7 +197,7 @@ inline void PackingUnit::close_cycles(Process& bank, Cycle until, Slot cause) {
     }
 }
 
-// In the ring, if packets go through it.
+// Makes room for the packet in its ring, if packets go through it.
 inline __attribute__((always_inline)) void PackingUnit::begin_packet(Process& bank) {
     if (packets_) {
         ring_->reserve(bank); // free by its dates; the host may not have emptied it yet
@@ -205,7 +205,7 @@ inline __attribute__((always_inline)) void PackingUnit::begin_packet(Process& ba
     }
 }
 
-// The open packet, to the slice that has drawn its tasks.
+// Tells the slice of the open packet, whose tasks are replayed.
 inline __attribute__((always_inline)) void PackingUnit::send_counted(Cycle now) {
     const int tasks = packet_.tasks();
     const bool ends = ends_tile_;
@@ -213,7 +213,7 @@ inline __attribute__((always_inline)) void PackingUnit::send_counted(Cycle now) 
     pass_packet(now, packet_.sent(now), tasks, ends);
 }
 
-// The open packet, through the ring.
+// Sends the open packet through the ring.
 inline __attribute__((always_inline)) void PackingUnit::send_packet(Process& bank, Slot cause) {
     TaskPacket& packet = ring_->staged();
     packet.tasks = packet_.tasks();
@@ -224,13 +224,13 @@ inline __attribute__((always_inline)) void PackingUnit::send_packet(Process& ban
     ends_tile_ = false;
     stats_.packets++;
     stats_.tasks += packet.tasks;
-    if (part_ != nullptr && !draws()) {
+    if (part_ != nullptr && !replays()) {
         record_packet(packet, cause);
     }
     ring_->put_staged(bank);
 }
 
-// In the open packet.
+// Adds tasks to the open packet.
 inline void PackingUnit::put(const TaskRun& run, std::uint32_t mask, std::uint32_t part) {
     TaskPacket& packet = ring_->staged();
     TaskRun& packed = packet.runs[packet.run_count++];
@@ -239,7 +239,7 @@ inline void PackingUnit::put(const TaskRun& run, std::uint32_t mask, std::uint32
     packed.part = part;
 }
 
-/// Where the tasks of a segment go, see OpenPacket.
+/// What OpenPacket asks when it packs the tasks of a segment: where they go.
 class PackingUnit::Sink {
 public:
     Sink(PackingUnit& unit, Process& bank, const TaskRun& run)
@@ -253,7 +253,7 @@ protected:
     const TaskRun& run_;
 };
 
-/// Tasks go through the ring, to be blended.
+/// Puts the tasks into packets of the ring, because the slice blends them.
 class PackingUnit::RingSink : public Sink {
 public:
     RingSink(PackingUnit& unit, Process& bank, const TaskRun& run, std::uint32_t mask)
@@ -273,7 +273,7 @@ inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, cons
     if (!config_.reorganisation) {
         separate(bank, run);
     }
-    if (draws() || ports_) {
+    if (replays() || ports_) {
         return add_picky(bank, run, mask, entry);
     }
     RingSink sink(*this, bank, run, mask);

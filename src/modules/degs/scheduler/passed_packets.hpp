@@ -17,7 +17,7 @@ public:
     Cycle occupied_cycles() const { return occupied_cycles_; }
     std::size_t high_water() const { return high_water_; }
 
-    /// For a ring of `depth` cells.
+    /// Prepares for packets that would go through a ring of `depth` cells.
     void hold(std::size_t depth) {
         std::size_t size = 1;
         while (size <= depth) {
@@ -26,7 +26,7 @@ public:
         reads_.resize(size, kNever);
         mask_ = size - 1;
     }
-    /// A packet that leaves at `written` and executes at `slot`.
+    /// Counts a packet that leaves at `written` and executes at `slot`.
     __attribute__((always_inline)) void pass_packet(Cycle written, Cycle slot) {
         pass(written, slot);
         ready_ = slot + 1;

@@ -12,7 +12,8 @@ namespace degs {
 /// the newest one, which the next choice fills.
 class PickPipeline {
 public:
-    /// A domain of the tile of this turn in the bank's tile stream number `stream`.
+    /// A domain that the bank has chosen: of which stream, of which of its tiles, and its number
+    /// there.
     struct Pick {
         std::size_t stream = 0, turn = 0;
         int domain = 0;
@@ -49,7 +50,7 @@ public:
         groups_[newest_].picks.push_back(pick);
         ++size_;
     }
-    /// The domain has lost its segments. Nothing takes the place of its pick.
+    /// Removes a pick whose domain has lost its segments. Its place in the group stays empty.
     void remove(const Pick& lost) {
         for (Group& group : groups_) {
             for (std::size_t i = group.packed; i < group.picks.size(); ++i) {

@@ -89,14 +89,14 @@ void GaussianSlicingUnit::end_of_elaboration() {
         lanes_.back()->connect_writer(self_);
     }
     row_writes_.resize(lanes_.size());
-    drawn_lanes_.resize(lanes_.size());
+    replay_lanes_.resize(lanes_.size());
     open_chunks_.connect_writer(self_);
 }
 
 void GaussianSlicingUnit::run() {
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
         const SpanStage* const reader = readers_[lane];
-        drawn_lanes_[lane] = reader != nullptr ? reader->drawn_spans(*lanes_[lane]) : nullptr;
+        replay_lanes_[lane] = reader != nullptr ? reader->replay_of(*lanes_[lane]) : nullptr;
     }
     for (TileNumber number = tile_after(kNoTile); number != kNoTile; number = tile_after(number)) {
         slice_tile(number);
@@ -116,7 +116,7 @@ void GaussianSlicingUnit::end_lanes(TileNumber number) {
     end.tile = number;
     end.end = true;
     for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
-        if (DrawnSpans* const spans = drawn_lanes_[lane]) {
+        if (SpanReplay* const spans = replay_lanes_[lane]) {
             spans->reserve(self_);
             spans->put_end(self_, number);
         } else {
@@ -125,7 +125,8 @@ void GaussianSlicingUnit::end_lanes(TileNumber number) {
     }
 }
 
-// kNoTile: there is no next tile, or, as an argument, none before.
+// The number of the tile that is sliced after tile `number`, or kNoTile if none follows. With
+// kNoTile as the argument, the first tile.
 TileNumber GaussianSlicingUnit::tile_after(TileNumber number) {
     if (config_.granted) {
         return in[0]->arrive(self_).tile;
@@ -175,7 +176,7 @@ bool GaussianSlicingUnit::add_slice(TileNumber number) {
             return true;
         }
         open_chunks_.finish_splat(self_, slice.chunk);
-        free_sheets_.push_back(slice.sheet);
+        free_row_buffers_.push_back(slice.row_buffer);
         slices_.pop_back();
     }
     stats_.splat_port_waits += splat_reads_left_ == 0 && dealt_ < chunk_.count ? 1 : 0;
@@ -206,7 +207,8 @@ bool GaussianSlicingUnit::more_splats(TileNumber number) {
     return true;
 }
 
-// In the order of age: an older splat passes a row before a younger one sends it.
+// A cycle of the units. They go in the order of age of their splats, because an older splat passes
+// a row before a younger one may send it.
 void GaussianSlicingUnit::work(TileNumber number) {
     int passed = job_.tile_size; // the first row that some older splat has not passed
     bool finished = false;
@@ -219,7 +221,7 @@ void GaussianSlicingUnit::work(TileNumber number) {
         }
         finished = true;
         open_chunks_.finish_splat(self_, slice.chunk);
-        free_sheets_.push_back(slice.sheet);
+        free_row_buffers_.push_back(slice.row_buffer);
         if (slice.splats_left > 1) {
             if (add_slice(number)) {
                 slices_.back().rows_left = slice.rows_left;
@@ -240,16 +242,16 @@ GaussianSlicingUnit::put_row(TileNumber number, const Slice& slice, DatedFifo<Ro
     item.splat = slice.splat;
     item.row = inside_tile(slice.row);
     item.end = false;
-    if (drawing_ != nullptr) {
-        item.drawn = *slice.drawn;
+    if (functional_ != nullptr) {
+        item.outcome = *slice.outcome;
     }
     lane.put_staged(self_);
 }
 
 void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before) {
-    const int drawn = drawing_ != nullptr ? 1 : 0;
+    const int step = functional_ != nullptr ? 1 : 0;
     for (; slice.row <= slice.last && slice.row < before;
-         slice.row += modules_, slice.drawn += drawn) {
+         slice.row += modules_, slice.outcome += step) {
         if ((slice.below & ~ended_[slice.row]) == 0) {
             stats_.rows_skipped++;
             continue;
@@ -258,7 +260,7 @@ void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before)
             return;
         }
         const std::size_t lane = lane_of_row_[slice.row];
-        DrawnSpans* const spans = drawn_lanes_[lane];
+        SpanReplay* const spans = replay_lanes_[lane];
         if (spans != nullptr) {
             spans->reserve(self_);
         } else {
@@ -271,7 +273,7 @@ void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before)
         open_chunks_.count_row(slice.chunk, lane);
         stats_.rows++;
         if (spans != nullptr) {
-            spans->put(self_, number, slice.splat, slice.row, *slice.drawn);
+            spans->put(self_, number, slice.splat, slice.row, *slice.outcome);
         } else {
             put_row(number, slice, *lanes_[lane]);
         }
@@ -313,16 +315,16 @@ void GaussianSlicingUnit::see_ended_regions(TileNumber number) {
     }
 }
 
-// The host's memory then answers for all splats of the chunk at once.
+// Asks early for all splats of the chunk, so that the host's caches load them side by side.
 void GaussianSlicingUnit::expect_splats() const {
-    if (drawing_ != nullptr) {
-        drawing_->expect(chunk_);
+    if (functional_ != nullptr) {
+        functional_->expect(chunk_);
     } else {
         expect_listed(job_, chunk_);
     }
 }
 
-// The segments of a row that the splat's box covers inside the tile.
+// The segments of a row that the splat's box covers inside the tile, a bit each.
 std::uint64_t GaussianSlicingUnit::segments_below(const JobTile& tile, std::uint32_t splat) const {
     const PixelRange columns = job_.path->columns(splat).within(tile.columns()).relative_to(tile.x);
     if (columns.empty()) {
@@ -340,10 +342,10 @@ void GaussianSlicingUnit::begin(TileNumber number, Slice& slice) {
     ++dealt_;
     slice.splat = tile.splat(place);
     slice.chunk = open_chunks_.latest();
-    const PixelRange rows = drawing_ != nullptr
-                                ? drawing_->rows(number, place)
+    const PixelRange rows = functional_ != nullptr
+                                ? functional_->rows(number, place)
                                 : sliced_rows(job_, tile, slice.splat, config_.rows);
-    // The first one of ours.
+    // The first row that this module owns.
     slice.row = rows.first + (index_ - rows.first % modules_ + modules_) % modules_;
     slice.last = rows.last;
     if (log_ != nullptr) {
@@ -354,21 +356,22 @@ void GaussianSlicingUnit::begin(TileNumber number, Slice& slice) {
     }
     slice.below = config_.skip_dead_rows ? segments_below(tile, slice.splat) : ~std::uint64_t{0};
     stats_.splats++;
-    draw(number, place, slice);
+    take_outcomes(number, place, slice);
 }
 
-// Splats begin in depth order, whatever unit of the module they are in.
-void GaussianSlicingUnit::draw(TileNumber number, std::uint32_t place, Slice& slice) {
-    if (free_sheets_.empty()) {
-        free_sheets_.push_back(sheets_.size());
-        sheets_.emplace_back(drawing_ == nullptr ? 0 : job_.tile_size);
+// Takes the outcomes of the slice's rows from the functional model, if there is one. The model asks
+// for depth order, which holds because splats begin in that order in all units of a module.
+void GaussianSlicingUnit::take_outcomes(TileNumber number, std::uint32_t place, Slice& slice) {
+    if (free_row_buffers_.empty()) {
+        free_row_buffers_.push_back(row_buffers_.size());
+        row_buffers_.emplace_back(functional_ == nullptr ? 0 : job_.tile_size);
     }
-    slice.sheet = free_sheets_.back();
-    free_sheets_.pop_back();
-    slice.drawn = sheets_[slice.sheet].data();
-    if (drawing_ != nullptr) {
-        drawing_->take(number, place, {slice.row, slice.last}, modules_,
-                       sheets_[slice.sheet].data());
+    slice.row_buffer = free_row_buffers_.back();
+    free_row_buffers_.pop_back();
+    slice.outcome = row_buffers_[slice.row_buffer].data();
+    if (functional_ != nullptr) {
+        functional_->take(number, place, {slice.row, slice.last}, modules_,
+                          row_buffers_[slice.row_buffer].data());
     }
 }
 

@@ -6,9 +6,9 @@
 #include <systemc>
 
 #include "config/config.hpp"
-#include "modules/degs/drawing/tile_drawing.hpp"
-#include "modules/degs/span_engine/drawn_spans.hpp"
+#include "modules/degs/functional/functional_model.hpp"
 #include "modules/degs/span_engine/open_chunks.hpp"
+#include "modules/degs/span_engine/span_replay.hpp"
 #include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/sram_ports.hpp"
@@ -98,22 +98,22 @@ public:
     const Stats& stats() const { return stats_; }
     /// The Span Units that read output `lane`, if known; before the simulation starts.
     void write_to(std::size_t lane, const SpanStage& spans) { readers_[lane] = &spans; }
-    /// Has the rows of every splat drawn; before the simulation starts.
-    void draw_with(TileDrawing& drawing) { drawing_ = &drawing; }
-    /// Chunks of splats, cancelled tiles and ended regions taken, rows and ends of tiles sent.
+    /// Takes the rows of every splat and their outcomes from `model`; before the simulation starts.
+    void replay(FunctionalModel& model) { functional_ = &model; }
+    /// Logs chunks of splats, cancelled tiles and ended regions taken, rows and ends of tiles sent.
     void log_to(EventLog& log) override { log_ = &log; }
 
 private:
-    /// A splat in a unit.
+    /// A splat that a unit works on.
     struct Slice {
         std::uint32_t splat = 0;
-        int row = 0, last = -1;          // the next row to send, and the last one
-        std::uint64_t below = 0;         // a bit per segment that its box covers
-        int rows_left = 0;               // that the unit may send in this cycle
-        int splats_left = 0;             // that it may take in this cycle, this one included
-        std::uint64_t chunk = 0;         // see OpenChunks
-        std::size_t sheet = 0;           // of sheets_
-        const DrawnRow* drawn = nullptr; // of `row`
+        int row = 0, last = -1;              // the next row to send, and the last one
+        std::uint64_t below = 0;             // a bit per segment that its box covers
+        int rows_left = 0;                   // that the unit may send in this cycle
+        int splats_left = 0;                 // that it may take in this cycle, this one included
+        std::uint64_t chunk = 0;             // see OpenChunks
+        std::size_t row_buffer = 0;          // its place in row_buffers_
+        const RowOutcome* outcome = nullptr; // of `row`
         bool done() const { return row > last; }
     };
 
@@ -131,7 +131,7 @@ private:
     void expect_splats() const;
     bool add_slice(TileNumber number);
     void begin(TileNumber number, Slice& slice);
-    void draw(TileNumber number, std::uint32_t place, Slice& slice);
+    void take_outcomes(TileNumber number, std::uint32_t place, Slice& slice);
     [[gnu::noinline]] std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
     void send_rows(TileNumber number, Slice& slice, int before);
     inline void put_row(TileNumber number, const Slice& slice, DatedFifo<RowItem>& lane);
@@ -146,7 +146,7 @@ private:
     std::vector<std::size_t> lane_of_row_;   // output port by row inside the tile
     std::vector<DatedFifo<RowItem>*> lanes_; // what the ports are bound to
     std::vector<const SpanStage*> readers_;
-    std::vector<DrawnSpans*> drawn_lanes_; // what takes the rows of a lane in its place, if any
+    std::vector<SpanReplay*> replay_lanes_; // by lane: takes its rows in its place; may be null
     struct Writes {
         Cycle date = 0;
         int count = 0;
@@ -159,9 +159,9 @@ private:
     bool dropping_ = false;            // a chunk in this cycle
     std::vector<Slice> slices_;        // in work, oldest first
     OpenChunks open_chunks_;
-    TileDrawing* drawing_ = nullptr;
-    std::vector<std::vector<DrawnRow>> sheets_; // rows of the splats in work
-    std::vector<std::size_t> free_sheets_;
+    FunctionalModel* functional_ = nullptr;
+    std::vector<std::vector<RowOutcome>> row_buffers_; // outcomes of the splats in work
+    std::vector<std::size_t> free_row_buffers_;
     Stats stats_;
     EventLog* log_ = nullptr;
 };

@@ -27,7 +27,7 @@ public:
             port->connect_writer(self);
         }
     }
-    /// A chunk of that many splats is taken; none if they are dropped.
+    /// Opens a chunk that the unit has taken, of so many splats; 0 if they are dropped.
     void open(Process& self, std::size_t fetcher, std::uint32_t splats) {
         if (reported_) {
             ++opened_;
@@ -42,7 +42,7 @@ public:
             ++chunks_[chunk - first_].rows[lane];
         }
     }
-    /// The last row of a splat has been sent.
+    /// Notes that the last row of a splat of the chunk has been sent.
     void finish_splat(Process& self, std::uint64_t chunk) {
         if (reported_) {
             --chunks_[chunk - first_].splats_left;

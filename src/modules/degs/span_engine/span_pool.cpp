@@ -58,21 +58,21 @@ void SpanPool::start_of_simulation() {
     }
 }
 
-const std::vector<std::unique_ptr<DrawnSpans>>& SpanPool::hand_over(Process& bank) {
+const std::vector<std::unique_ptr<SpanReplay>>& SpanPool::hand_over(Process& bank) {
     const bool one_by_one = share_.units == 1 && share_.lanes == 1 && config_.rows_per_cycle == 1 &&
                             config_.cycles_per_row == 1;
     // Nobody but the bank and the Slicing Units may wait for what SpanTurns does.
     if (!one_by_one || out.size() != streams_.size() || config_.row_ports.limited() ||
         config_.reports_rows || !can_hand_over()) {
-        return drawn_spans_;
+        return replays_;
     }
-    std::vector<DrawnSpans*> streams;
+    std::vector<SpanReplay*> streams;
     for (std::size_t stream = 0; stream < streams_.size(); ++stream) {
         SpanStage::hand_over(stream, self_, bank);
-        streams.push_back(drawn_spans_.back().get());
+        streams.push_back(replays_.back().get());
     }
     turns_ = std::make_unique<SpanTurns>(self_, streams, tiles_);
-    return drawn_spans_;
+    return replays_;
 }
 
 void SpanPool::run() {
@@ -123,7 +123,7 @@ inline __attribute__((always_inline)) bool SpanPool::take_from(Lane& lane) {
     return true;
 }
 
-// From the lanes in turn. Returns the number of rows.
+// Takes rows for one unit from the lanes in turn. Returns how many.
 inline __attribute__((always_inline)) int SpanPool::take_for_unit() {
     int taken = 0;
     const std::size_t lanes = lanes_.size();
@@ -209,7 +209,7 @@ void SpanPool::pass_end(Lane& lane) {
     lane.has_row = self_.arrived(*lane.rows) && !lane.rows->front().end;
 }
 
-// A lane is an SRAM bank.
+// True if the lane can give another row in this cycle: it is an SRAM bank with so many read ports.
 bool SpanPool::has_port(Lane& lane) {
     if (lane.read != self_.local()) {
         lane.read = self_.local();
@@ -218,7 +218,7 @@ bool SpanPool::has_port(Lane& lane) {
     return lane.reads < config_.row_ports.ports;
 }
 
-// To every bank that the module reaches; false if one has no place for it yet.
+// Sends the end of a tile to every bank that the module reaches. False if a bank has no place yet.
 bool SpanPool::send_end(Stream& stream) {
     for (; stream.end_port < stream.rings.size(); ++stream.end_port) {
         DatedFifo<SpanItem>& ring = *stream.rings[stream.end_port];

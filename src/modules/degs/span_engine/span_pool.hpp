@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "modules/degs/span_engine/drawn_spans.hpp"
+#include "modules/degs/span_engine/span_replay.hpp"
 #include "modules/degs/span_engine/span_stage.hpp"
 #include "modules/degs/span_engine/span_turns.hpp"
 
@@ -19,7 +19,7 @@ namespace degs {
 /// splats within a row.
 class SpanPool : public SpanStage {
 public:
-    /// What the module serves.
+    /// The part of the stage that the module is: which lanes, streams and banks it serves.
     struct Share {
         int index = 0, of = 1; ///< it reaches the banks that share a row with part `index` of `of`
         int banks = 1;
@@ -30,8 +30,9 @@ public:
     SpanPool(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
              const RenderJob& job, const Share& share);
 
-    /// If one unit takes a row per cycle from one lane per stream and reaches one bank alone.
-    const std::vector<std::unique_ptr<DrawnSpans>>& hand_over(Process& bank) override;
+    /// Replays are possible only if the module has one unit, which takes a row per cycle from one
+    /// lane per stream and reaches one bank alone.
+    const std::vector<std::unique_ptr<SpanReplay>>& hand_over(Process& bank) override;
 
 private:
     struct Stream {

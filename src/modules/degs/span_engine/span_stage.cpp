@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "modules/degs/span_engine/drawn_spans.hpp"
+#include "modules/degs/span_engine/span_replay.hpp"
 
 namespace degs {
 
@@ -41,10 +41,10 @@ SpanStage::SpanStage(const sc_core::sc_module_name& name, const Config& config,
 
 SpanStage::~SpanStage() = default;
 
-DrawnSpans* SpanStage::drawn_spans(const DatedFifo<RowItem>& lane) const {
-    for (std::size_t i = 0; i < drawn_spans_.size(); ++i) {
+SpanReplay* SpanStage::replay_of(const DatedFifo<RowItem>& lane) const {
+    for (std::size_t i = 0; i < replays_.size(); ++i) {
         if (in[i].operator->() == &lane) {
-            return drawn_spans_[i].get();
+            return replays_[i].get();
         }
     }
     return nullptr;
@@ -52,15 +52,15 @@ DrawnSpans* SpanStage::drawn_spans(const DatedFifo<RowItem>& lane) const {
 
 bool SpanStage::can_hand_over() {
     const auto attended = [](auto& port) { return port.ring().attended(); };
-    return config_.drawn && std::none_of(in.begin(), in.end(), attended) &&
+    return config_.replays && std::none_of(in.begin(), in.end(), attended) &&
            std::none_of(out.begin(), out.end(), attended);
 }
 
 void SpanStage::hand_over(std::size_t lane, Process& self, Process& bank) {
-    drawn_spans_.push_back(std::make_unique<DrawnSpans>(self, bank, in[lane].ring(),
-                                                        out[lane].ring(), config_, stats_, tiles_));
+    replays_.push_back(std::make_unique<SpanReplay>(self, bank, in[lane].ring(), out[lane].ring(),
+                                                    config_, stats_, tiles_));
     if (config_.reports_rows) {
-        drawn_spans_.back()->report_to(solved[lane].ring());
+        replays_.back()->report_to(solved[lane].ring());
     }
 }
 

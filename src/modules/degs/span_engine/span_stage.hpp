@@ -17,7 +17,7 @@
 
 namespace degs {
 
-class DrawnSpans;
+class SpanReplay;
 
 /// Which Span Unit solves a row: the one whose number is the row's modulo their number, or any that
 /// is free.
@@ -39,7 +39,7 @@ public:
         int crossbar_width = 0;    ///< Span Vectors that a bank takes per cycle; 0: all it can cut
         SramPorts row_ports;       ///< of a lane of the Span Buffer, whose section has the key
         bool reports_rows = false; ///< to Parameter Release
-        bool drawn = false;        ///< rows come solved, see TileDrawing
+        bool replays = false;      ///< rows come with outcomes, see FunctionalModel
         bool granted = false;      ///< tiles come one by one, see TileEnd
         void describe(ConfigVisitor& visitor);
         /// Modules of the stage; each has units_per_module() units.
@@ -70,15 +70,16 @@ public:
 
     const Stats& stats() const { return stats_; }
     ~SpanStage() override;
-    /// What `bank`, which reads nobody else's rows, reads in place of the crossbar's rings, one per
-    /// stream, and the Slicing Units write in place of the lanes; empty unless rows come drawn and
-    /// nobody looks on. Before the simulation starts.
-    virtual const std::vector<std::unique_ptr<DrawnSpans>>& hand_over(Process& bank) = 0;
-    /// What hand_over() has returned.
-    const std::vector<std::unique_ptr<DrawnSpans>>& drawn_spans() const { return drawn_spans_; }
-    /// What of it carries the rows of `lane`; nullptr if nothing does.
-    DrawnSpans* drawn_spans(const DatedFifo<RowItem>& lane) const;
-    /// Rows taken from the lanes, Span Vectors and ends of tiles sent.
+    /// Makes and returns the replays, one per stream, which `bank` reads in place of the crossbar's
+    /// rings, and which the Slicing Units write in place of the lanes. `bank` must read no other
+    /// rows. Empty unless rows come with outcomes and nobody watches the rings. Before the
+    /// simulation starts.
+    virtual const std::vector<std::unique_ptr<SpanReplay>>& hand_over(Process& bank) = 0;
+    /// The replays that hand_over() has returned.
+    const std::vector<std::unique_ptr<SpanReplay>>& replays() const { return replays_; }
+    /// The replay that carries the rows of `lane`; nullptr if there is none.
+    SpanReplay* replay_of(const DatedFifo<RowItem>& lane) const;
+    /// Logs rows taken from the lanes, Span Vectors and ends of tiles sent.
     void log_to(EventLog& log) override { log_ = &log; }
 
 protected:
@@ -91,17 +92,18 @@ protected:
             port->connect_writer(self);
         }
     }
-    /// The row that has just been taken from a lane.
+    /// Reports a row that has just been taken from a lane, if Parameter Release wants to know.
     void report(Process& self, std::size_t lane) {
         if (config_.reports_rows) {
             solved[lane]->put(self, {});
         }
     }
-    /// Replaces lane `lane` and its ring of the crossbar; for hand_over().
+    /// Makes the replay that stands for lane `lane` and its ring of the crossbar.
     void hand_over(std::size_t lane, Process& self, Process& bank);
-    /// True if rows come drawn, and nobody looks at what goes through the rings.
+    /// True if rows come with outcomes, and nobody watches what goes through the rings.
     bool can_hand_over();
-    /// Solves a row of a splat in `result`. False: it misses every pixel of the tile.
+    /// Solves a row of a splat and writes its span to `result`. False if the row misses every pixel
+    /// of the tile.
     inline bool solve(const RowItem& row, SpanItem& result);
 
     Config config_;
@@ -109,7 +111,7 @@ protected:
     TileEnd tiles_;
     Stats stats_;
     EventLog* log_ = nullptr;
-    std::vector<std::unique_ptr<DrawnSpans>> drawn_spans_; // see hand_over(): by lane
+    std::vector<std::unique_ptr<SpanReplay>> replays_; // by lane; see hand_over()
 };
 
 // Inlined in the hot loops. The pixels of the span are made in place, because a copy of what was
@@ -117,19 +119,19 @@ protected:
 inline __attribute__((always_inline)) bool SpanStage::solve(const RowItem& row, SpanItem& result) {
     stats_.rows++;
     result.tile = row.tile;
-    if (config_.drawn) {
-        if (row.drawn.length == 0) {
+    if (config_.replays) {
+        if (row.outcome.length == 0) {
             stats_.empty_rows++;
             return false;
         }
         RowSpan& span = result.span.emplace();
         span.splat = row.splat;
         span.y = row.row;
-        span.x0 = inside_tile(row.drawn.x0);
-        span.length = inside_tile(row.drawn.length);
-        result.drawn = row.drawn;
+        span.x0 = inside_tile(row.outcome.x0);
+        span.length = inside_tile(row.outcome.length);
+        result.outcome = row.outcome;
         stats_.spans++;
-        stats_.tasks += row.drawn.length;
+        stats_.tasks += row.outcome.length;
         return true;
     }
     const JobTile& tile = job_.tiles[row.tile];
@@ -137,7 +139,7 @@ inline __attribute__((always_inline)) bool SpanStage::solve(const RowItem& row, 
     auto& span = *new (&result.span) std::optional<RowSpan>(
         config_.parsing ? job_.path->solve_row(row.splat, y, tile.x, x_end, tile.y)
                         : row_of_box(*job_.path, row.splat, y, tile.x, x_end, tile.y));
-    if (!span || !cut(*span, tile.drawn_columns())) {
+    if (!span || !cut(*span, tile.image_columns())) {
         stats_.empty_rows++;
         return false;
     }

@@ -12,7 +12,7 @@ constexpr std::size_t kItemsOfEnds = 3;
 
 } // namespace
 
-SpanTurns::SpanTurns(Process& unit, const std::vector<DrawnSpans*>& streams, TileEnd& tiles)
+SpanTurns::SpanTurns(Process& unit, const std::vector<SpanReplay*>& streams, TileEnd& tiles)
     : unit_(unit), tiles_(tiles), streams_(streams.size()), next_(streams_.data()) {
     std::vector<FifoBase*> lanes;
     for (std::size_t i = 0; i < streams.size(); ++i) {
@@ -102,7 +102,7 @@ inline __attribute__((always_inline)) Cycle SpanTurns::next_known(Stream* change
 }
 
 inline __attribute__((always_inline)) void SpanTurns::look_at(Stream& stream) {
-    const DrawnSpans& spans = *stream.spans;
+    const SpanReplay& spans = *stream.spans;
     stream.ends = stream.ending;
     stream.from = kNever;
     if (stream.ending) {
@@ -115,10 +115,10 @@ inline __attribute__((always_inline)) void SpanTurns::look_at(Stream& stream) {
     }
 }
 
-// What is not certain about the stream at `date`, up to which it has nothing to do.
+// Says what is not certain about the stream at `date`, up to which it has nothing to do.
 inline __attribute__((always_inline)) SpanTurns::Missing SpanTurns::missing(const Stream& stream,
                                                                             Cycle date) const {
-    DrawnSpans& spans = *stream.spans;
+    SpanReplay& spans = *stream.spans;
     if (stream.from <= date) {
         return stream.ends ? missing_of_ends(spans, date) : Missing::Nothing;
     }
@@ -130,7 +130,7 @@ inline __attribute__((always_inline)) SpanTurns::Missing SpanTurns::missing(cons
     return sure ? Missing::Nothing : Missing::Room;
 }
 
-SpanTurns::Missing SpanTurns::missing_of_ends(DrawnSpans& spans, Cycle date) const {
+SpanTurns::Missing SpanTurns::missing_of_ends(SpanReplay& spans, Cycle date) const {
     if (spans.waiting() < kItemsOfEnds && !is_quiet(spans, date)) {
         return Missing::Item;
     }
@@ -139,20 +139,20 @@ SpanTurns::Missing SpanTurns::missing_of_ends(DrawnSpans& spans, Cycle date) con
 }
 
 // True if nothing that is not in the lane yet can be taken at `date`.
-inline bool SpanTurns::is_quiet(DrawnSpans& spans, Cycle date) const {
+inline bool SpanTurns::is_quiet(SpanReplay& spans, Cycle date) const {
     return unit_.quiet_beyond(spans.lane(), date) || unit_.certain(date);
 }
 
 // True if no place of the crossbar becomes free up to `date`. What kernel time says holds unless
 // the bank, which may sleep since before, acts on what it has been sent meanwhile.
-bool SpanTurns::stays_full(const DrawnSpans& spans, Cycle date) const {
+bool SpanTurns::stays_full(const SpanReplay& spans, Cycle date) const {
     return Process::full_beyond(spans, date) ||
            (unit_.certain(date) && spans.reader()->next_action() + spans.release_latency() > date);
 }
 
 // Somebody who waits for the unit has it go on as soon as that is possible. A bank that sleeps
 // wakes when kernel time says what comes; a Slicing Unit that has no place does not.
-void SpanTurns::wait_for(DrawnSpans& spans, Missing what, Cycle date) {
+void SpanTurns::wait_for(SpanReplay& spans, Missing what, Cycle date) {
     unknown_ = what == Missing::Item ? &spans : nullptr;
     asked_at_ = what == Missing::Item ? asked_at_ : 0;
     const bool full = std::any_of(streams_.begin(), streams_.end(),
@@ -189,7 +189,7 @@ inline __attribute__((always_inline)) SpanTurns::Stream* SpanTurns::take(Cycle d
             pass_end(stream, date);
         }
         if (stream.from <= date && !stream.ends) {
-            DrawnSpans& spans = *stream.spans;
+            SpanReplay& spans = *stream.spans;
             const bool was_empty = spans.empty();
             spans.take_row(date);
             sent(spans, was_empty);
@@ -199,7 +199,7 @@ inline __attribute__((always_inline)) SpanTurns::Stream* SpanTurns::take(Cycle d
     return first;
 }
 
-// What ends at the start of the cycle.
+// Passes on the ends of tiles that come at the start of the cycle.
 void SpanTurns::pass_ends(Cycle date) {
     for (Stream& stream : streams_) {
         if (stream.ends && stream.from <= date) {
@@ -210,7 +210,7 @@ void SpanTurns::pass_ends(Cycle date) {
 
 // See SpanPool::look_at().
 void SpanTurns::pass_end(Stream& stream, Cycle date) {
-    DrawnSpans& spans = *stream.spans;
+    SpanReplay& spans = *stream.spans;
     if (!stream.ending) {
         stream.end_number = spans.leave(date);
         stream.ending = true;
@@ -227,8 +227,8 @@ void SpanTurns::pass_end(Stream& stream, Cycle date) {
     look_at(stream);
 }
 
-// A bank that sleeps is awake now, and asks again if it wants more.
-inline __attribute__((always_inline)) void SpanTurns::sent(const DrawnSpans& spans,
+// Notes that a bank, if it slept, has been woken by the span: it asks again if it wants more.
+inline __attribute__((always_inline)) void SpanTurns::sent(const SpanReplay& spans,
                                                            bool was_empty) {
     if (was_empty && !spans.empty() && spans.reader()->blocked()) {
         wanted_ = false;

@@ -42,12 +42,12 @@ void SpanUnit::start_of_simulation() {
     }
 }
 
-const std::vector<std::unique_ptr<DrawnSpans>>& SpanUnit::hand_over(Process& bank) {
+const std::vector<std::unique_ptr<SpanReplay>>& SpanUnit::hand_over(Process& bank) {
     if (rings_.size() == 1 && can_hand_over()) {
         SpanStage::hand_over(0, self_, bank);
-        self_.pump_with(*drawn_spans_.front(), drawn_spans_.front()->lane());
+        self_.pump_with(*replays_.front(), replays_.front()->lane());
     }
-    return drawn_spans_;
+    return replays_;
 }
 
 void SpanUnit::run() {

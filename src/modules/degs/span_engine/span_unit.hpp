@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "modules/degs/span_engine/drawn_spans.hpp"
+#include "modules/degs/span_engine/span_replay.hpp"
 #include "modules/degs/span_engine/span_stage.hpp"
 
 namespace degs {
@@ -18,7 +18,7 @@ public:
              const RenderJob& job, int index, int banks);
 
     /// If the unit reaches one bank alone.
-    const std::vector<std::unique_ptr<DrawnSpans>>& hand_over(Process& bank) override;
+    const std::vector<std::unique_ptr<SpanReplay>>& hand_over(Process& bank) override;
 
 private:
     void end_of_elaboration() override;

@@ -85,7 +85,7 @@ struct TileRecord {
     TileActivity activity;
 };
 
-/// Counters are sums over all frames of the run.
+/// The result of a run. Counters are sums over all of its frames.
 struct AcceleratorResult {
     /// Pixels of splats that were blended.
     std::uint64_t fragments() const { return slots[Slot::Useful] / slots_per_fragment; }
@@ -107,7 +107,8 @@ struct AcceleratorResult {
     std::vector<cost::Activity> activity; ///< of the blocks in the bill of materials
     cost::RunEnergy energy;
     AnswerWaits waits;
-    /// In which the Tile Binner could take the list entries of all frames; no number of results.
+    /// The cycles that the Tile Binner needs at least for the list entries of all frames. Reports
+    /// do not show it.
     double binning_cycles = 0;
     int readout_pixels = 0; ///< that all Pixel Buffers read out per cycle; no number of results
     double memory_utilization = 0; ///< share of memory_window in which the data bus was busy
@@ -128,14 +129,14 @@ struct AcceleratorResult {
     /// Keys that the accelerator names for its losses (LossKey::name()), but that limited nothing
     /// in this run, so that to move them changes nothing.
     std::vector<std::string> idle_keys;
-    std::vector<std::string> left_out;               ///< sentences for --explain
-    std::vector<Image> images;                       ///< one per frame
-    TimelineRecord timeline;                         ///< if the run was asked for one
-    std::vector<TileRecord> tile_records;            ///< if asked for, in the order of the job
-    double elaborate_s = 0, sim_s = 0;               ///< host; sim_s is sc_start() alone
-    double drawing_s = 0;                            ///< host; see TileDrawing
-    double waited_s = 0;                             ///< host; see TileDrawing
-    std::uint64_t activations = 0;                   ///< host; see Timebase
+    std::vector<std::string> left_out;    ///< sentences for --explain
+    std::vector<Image> images;            ///< one per frame
+    TimelineRecord timeline;              ///< if the run was asked for one
+    std::vector<TileRecord> tile_records; ///< if asked for, in the order of the job
+    double elaborate_s = 0, sim_s = 0;    ///< host; sim_s is sc_start() alone
+    double functional_s = 0;              ///< host time of its thread; see FunctionalModel
+    double waited_s = 0;                  ///< host time; see FunctionalModel::waited_s()
+    std::uint64_t activations = 0;        ///< host; see Timebase
     std::chrono::steady_clock::time_point sim_start; ///< host; of sc_start()
 
     /// The sections timing, stages, slots, dram and buffers of a report.

@@ -24,7 +24,7 @@ using UnitCycles = std::array<double, kMostAnalyticUnits>;
 constexpr std::size_t kMostAnalyticCounts = 8;
 using WorkCounts = std::array<double, kMostAnalyticCounts>;
 
-/// What a tile takes.
+/// The cycles, bytes and counts that a tile takes.
 struct TileCycles {
     double time = 0;   ///< in which its engine works on it, if splats are there
     double walked = 0; ///< splats of the list that are needed
@@ -45,15 +45,15 @@ struct TileCycles {
 class TileClock {
 public:
     virtual ~TileClock() = default;
-    /// Before the first splat of `tile`.
+    /// Is called before the first splat of `tile`.
     virtual void begin(const CoarseTile& tile) = 0;
-    /// `tile` has solved a splat and not blended it.
+    /// Is called when `tile` has solved a splat and not blended it yet.
     virtual void splat(const CoarseTile& tile) = 0;
-    /// After the last one.
+    /// Is called after the last splat; returns what the tile took.
     virtual TileCycles end(const CoarseTile& tile) = 0;
 };
 
-/// Everything before the first tile.
+/// The cycles of everything before the first tile.
 struct PreparationCycles {
     double time = 0; ///< until the lists of the frame are complete
     UnitCycles busy{};
@@ -71,16 +71,16 @@ public:
     virtual std::vector<std::string> units() const = 0;
     virtual PreparationCycles preparation(const FrameWorkload& frame) const = 0;
     virtual std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const = 0;
-    /// What the clock asks of a tile.
-    virtual CoarseTile::Options drawing() const = 0;
+    /// How a CoarseTile samples a tile for the clock.
+    virtual CoarseTile::Options coarse_options() const = 0;
     /// How rows may be left out of a tile: of blocks of `height` rows one in up to `most_apart` is
-    /// drawn, and of that every `step`-th row. One in up to `most_fitted` is enough where a fit to
-    /// simulated tiles takes out the bias; 0: no fewer than for an estimate.
+    /// sampled, and of that every `step`-th row. One in up to `most_fitted` is enough where a fit
+    /// to simulated tiles takes out the bias; 0: no fewer than for an estimate.
     struct Blocks {
         int height = 1, most_apart = 1, step = 1, most_fitted = 0;
     };
     virtual Blocks blocks() const = 0;
-    /// Host time of the clock for a splat without a drawn row, over that of most clocks.
+    /// Host time of the clock for a splat without a sampled row, relative to that of most clocks.
     virtual double visits_per_entry() const { return 1; }
     /// Units that sort lists, in turn; 0: lists come sorted.
     virtual int sorters() const { return 0; }
@@ -100,7 +100,8 @@ public:
     virtual double memory_latency() const = 0; ///< cycles
     /// Bytes and memory cycles of pixels of tiles that list no splat.
     virtual TileCycles background(double pixels) const = 0;
-    /// From complete lists to the first task, and from the last task to the last pixel in memory.
+    /// Cycles from complete lists to the first task, and from the last task to the last pixel in
+    /// memory.
     virtual double latency() const = 0;
     virtual int pes() const = 0;
     /// What every block of the bill of materials does for the frame. `tiles`: sums of all tiles.

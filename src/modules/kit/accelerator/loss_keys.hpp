@@ -32,13 +32,13 @@ struct LossKey {
     std::string name() const { return *linked == 0 ? key : std::string(key) + " and " + linked; }
 };
 
-/// Keys of the memory model in use.
+/// The keys that move the losses to the memory model in use.
 std::vector<LossKey> memory_loss_keys(const MainMemoryConfig& memory);
-/// The key of its bandwidth.
+/// The key that sets the bandwidth of the memory.
 const char* bandwidth_key(const MainMemoryConfig& memory);
 /// Keys of the memory, and of a Tile Front End with its fetchers.
 std::vector<LossKey> common_loss_keys(const MainMemoryConfig& memory);
-/// Both lists as one.
+/// Appends `more` keys to `keys`.
 std::vector<LossKey> with(std::vector<LossKey> keys, const std::vector<LossKey>& more);
 
 } // namespace degs

@@ -38,7 +38,7 @@ std::vector<Listed> tiles_by_length(const FrameWorkload& frame, TileOrder order)
 }
 
 /// One block of rows in so many: as few as it takes to afford all tiles, as long as a splat has a
-/// drawn row or so on each of its tiles.
+/// sampled row or so on each of its tiles.
 int rows_apart(const AnalyticModel& model, const EntrySizes& sizes, double entries) {
     const AnalyticModel::Blocks blocks = model.blocks();
     int apart = 1;
@@ -50,7 +50,7 @@ int rows_apart(const AnalyticModel& model, const EntrySizes& sizes, double entri
 }
 
 /// A systematic sample, in the order of the lengths of the lists, in which the chance of a tile
-/// follows the root of its length: long lists are dearer to draw and differ more among themselves.
+/// follows the root of its length: long lists take more time and differ more among themselves.
 /// It has as many tiles as kVisits affords, and kLeastTiles of them or all in any case, so that
 /// they are spread over the lengths. Their places in `tiles`.
 std::vector<std::size_t> choose(const std::vector<Listed>& tiles, double visits_per_entry) {
@@ -142,8 +142,8 @@ double background_pixels(const FrameWorkload& frame) {
     double pixels = 0;
     for (int tile = 0; tile < frame.tiles(); ++tile) {
         if (frame.tile_begin[tile] == frame.tile_begin[tile + 1]) {
-            const PixelBox drawn = grid.drawn_of(tile);
-            pixels += 1.0 * drawn.width() * drawn.height();
+            const PixelBox inside = grid.image_pixels_of(tile);
+            pixels += 1.0 * inside.width() * inside.height();
         }
     }
     return pixels;
@@ -163,10 +163,10 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     std::vector<TileCycles> cycles(chosen.size());
     const std::size_t chains = std::min(kChains, chosen.size());
     parallel_blocks(chains, [&](std::size_t chain, std::size_t) {
-        CoarseTile tile(frame, model.drawing());
+        CoarseTile tile(frame, model.coarse_options());
         const std::unique_ptr<TileClock> clock = model.clock(frame);
         for (std::size_t c = chain; c < chosen.size(); c += chains) {
-            // Which blocks are drawn goes round with the tiles.
+            // The first sampled block changes from tile to tile, so that no rows are preferred.
             const int first = static_cast<int>(c) * 5 % apart;
             tile.begin(tiles[chosen[c]].tile, {blocks.height, apart, first, blocks.step});
             clock->begin(tile);

@@ -30,7 +30,7 @@ struct AnalyticFrame {
     int rows_apart = 1;                   ///< one block of their rows in so many
 };
 
-/// Draws a sample of the tiles coarsely, see CoarseTile, which takes some milliseconds on any
+/// Renders a sample of the tiles coarsely, see CoarseTile, which takes some milliseconds on any
 /// frame.
 AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& frame,
                              TileOrder order = TileOrder::Raster);

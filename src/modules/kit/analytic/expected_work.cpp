@@ -18,7 +18,7 @@ constexpr std::size_t kManyTiles = 3000;
 /// Tiles that a worker takes at a time; a clock starts afresh with them.
 constexpr std::size_t kRun = 128;
 
-/// One block of rows in so many.
+/// How many blocks of rows there are for each one that is sampled.
 int blocks_apart(const FrameWorkload& frame, const AnalyticModel::Blocks& blocks,
                  const EntrySizes& sizes, std::size_t tiles) {
     const auto entries = static_cast<double>(frame.tile_pairs());
@@ -31,7 +31,7 @@ int blocks_apart(const FrameWorkload& frame, const AnalyticModel::Blocks& blocks
     return apart;
 }
 
-TileWork draw(CoarseTile& tile, TileClock* clock) {
+TileWork work_of(CoarseTile& tile, TileClock* clock) {
     TileWork work = kNoWork;
     work.tiles = 1;
     if (clock != nullptr) {
@@ -49,8 +49,8 @@ TileWork draw(CoarseTile& tile, TileClock* clock) {
         }
         tile.blend();
     }
-    work.rows *= tile.rows_per_drawn();
-    work.tasks *= tile.rows_per_drawn();
+    work.rows *= tile.row_weight();
+    work.tasks *= tile.row_weight();
     work.pixels = tile.pixels();
     work.entries = tile.entries();
     work.walked = tile.walked();
@@ -69,14 +69,14 @@ std::vector<TileWork> expected_work(const FrameWorkload& frame, const AnalyticMo
     const int apart = blocks_apart(frame, blocks, entry_sizes(frame, blocks.step), listed.size());
     std::vector<TileWork> work(listed.size());
     parallel_blocks((listed.size() + kRun - 1) / kRun, [&](std::size_t run, std::size_t) {
-        CoarseTile tile(frame, model != nullptr ? model->drawing() : CoarseTile::Options());
+        CoarseTile tile(frame, model != nullptr ? model->coarse_options() : CoarseTile::Options());
         const std::unique_ptr<TileClock> clock =
             model != nullptr ? model->clock(frame) : std::unique_ptr<TileClock>();
         const std::size_t end = std::min(listed.size(), (run + 1) * kRun);
         for (std::size_t t = run * kRun; t < end; ++t) {
             tile.begin(listed[t],
                        {blocks.height, apart, static_cast<int>(t) * 5 % apart, blocks.step});
-            work[t] = draw(tile, clock.get());
+            work[t] = work_of(tile, clock.get());
         }
     });
     return work;

@@ -9,9 +9,9 @@
 
 namespace degs {
 
-/// The work of every tile that lists a splat, in the order of rendering, drawn coarsely. With a
-/// model the clock of the design follows all of them, one after the other, and says how long each
-/// takes.
+/// The work of every tile that lists a splat, in the order of rendering, as CoarseTile finds it.
+/// With a model the clock of the design follows all of them, one after the other, and says how long
+/// each takes.
 std::vector<TileWork> expected_work(const FrameWorkload& frame, const AnalyticModel* model,
                                     TileOrder order = TileOrder::Raster);
 

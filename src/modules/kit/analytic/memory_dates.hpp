@@ -11,11 +11,11 @@ namespace degs {
 /// for a stream that waits for its data and others that post theirs in bursts.
 class MemoryDates {
 public:
-    /// In bytes per cycle and in cycles.
+    /// The bandwidth is in bytes per cycle, the latency in cycles.
     MemoryDates(double bytes_per_cycle, double latency)
         : bytes_per_cycle_(bytes_per_cycle), latency_(latency) {}
 
-    /// Others move `bytes` from `date` on.
+    /// Reserves the bus from `date` on for `bytes` that others move.
     void post(double date, double bytes);
     /// The date of the last byte of a read of `bytes` that is asked for at `date`. If the memory
     /// has been busy since a later date, the read was served before that.
@@ -40,9 +40,9 @@ public:
     FetcherDates(std::size_t places, std::size_t in_flight)
         : places_(places), in_flight_(in_flight) {}
 
-    /// When the next chunk, of `bytes`, is there.
+    /// Returns the date at which the next chunk, of `bytes`, is there.
     double next(MemoryDates& memory, double bytes);
-    /// The reader takes it from its place.
+    /// Frees the place of the chunk, which the reader takes at `date`.
     void take(double date) { places_.replace_oldest(date); }
 
 private:

@@ -50,7 +50,8 @@ public:
             port->put_at(self, chunk, ready);
         }
     }
-    /// A cycle, or nothing where records are there at once, or what ports need.
+    /// The cycles that writing a chunk takes: one, none where records are there at once, or as many
+    /// as limited ports need.
     Cycle cycles(const SplatChunk& chunk) const {
         const int least = instant_ ? 0 : 1;
         const int count = static_cast<int>(chunk.count);

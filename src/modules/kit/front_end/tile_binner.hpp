@@ -74,7 +74,7 @@ public:
 
 private:
     void end_of_elaboration() override;
-    /// A view whose lists are made.
+    /// A view whose lists are being made.
     struct View {
         MemoryMap map;
         ListWrites writes;

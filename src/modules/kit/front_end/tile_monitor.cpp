@@ -45,7 +45,8 @@ void TileMonitor::run() {
     self_.finish();
 }
 
-// One report of every slice; false: there are no more. Slices may end tiles in different orders.
+// Takes one report of every slice. False if there are no more. Slices may end tiles in different
+// orders.
 bool TileMonitor::take_reports() {
     for (auto& port : in) {
         const SliceReport report = port->get(self_);

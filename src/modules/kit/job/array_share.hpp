@@ -10,8 +10,8 @@ struct ArrayShare {
     std::size_t inputs = 1; ///< rings of splats, one per sorter
     int contexts = 1;       ///< an array's n-th tile lives in context first_context + n modulo this
     int first_context = 0;  ///< in the data path
-    /// Tiles come one by one, ascending, on one ring, until kNoTile; else all tiles of the job
-    /// come.
+    /// True if tiles are granted: they come one by one, ascending, on one ring, until kNoTile.
+    /// False if all tiles of the job come.
     bool granted = false;
 };
 

@@ -13,15 +13,16 @@ namespace degs {
 
 /// Position of a tile in RenderJob::tiles; counts through all frames.
 using TileNumber = std::uint32_t;
-/// In place of a tile: nothing follows.
+/// Stands in place of a tile number where no further tile follows.
 constexpr TileNumber kNoTile = ~TileNumber{0};
 
-/// The tile context that number `turn` gets: `contexts` of them, from `first` on, are used in turn.
+/// The context of the tile that a block takes as number `turn`: the block uses `contexts` contexts,
+/// from `first` on, in turn.
 inline std::int16_t context_in_turn(std::uint64_t turn, int contexts, int first = 0) {
     return static_cast<std::int16_t>(first + turn % contexts);
 }
 
-/// Items of the next chunk of at most `chunk` when `left` are left.
+/// The number of items in the next chunk: `chunk`, or all that are left if they are fewer.
 inline std::uint32_t next_chunk_of(std::uint32_t chunk, std::uint64_t left) {
     return left < chunk ? static_cast<std::uint32_t>(left) : chunk;
 }
@@ -59,17 +60,20 @@ struct SplatChunk {
     }
 };
 
-/// Splat Fetcher's chunk whose last row has been sent, Slicing Unit -> Parameter Release.
+/// Reports that the last row of a Splat Fetcher's chunk has been sent, Slicing Unit -> Parameter
+/// Release.
 struct ChunkSliced {
     std::size_t fetcher = 0; ///< among those that feed the Slicing Unit
 };
-/// Rows of that chunk in a lane.
+/// Reports how many rows of that chunk have gone to a lane of the Span Buffer, Slicing Unit ->
+/// Parameter Release.
 struct RowCount {
     std::uint32_t rows = 0;
 };
-/// Span Unit -> Parameter Release: a row has become a Span Vector, or misses its tile.
+/// Reports that a row has become a Span Vector, or misses its tile, Span Unit -> Parameter Release.
 struct RowSolved {};
-/// Parameter Release -> Splat Fetcher: the oldest chunk has left its place in the Gaussian Buffer.
+/// Reports that the oldest chunk has left its place in the Gaussian Buffer, Parameter Release ->
+/// Splat Fetcher.
 struct ChunkReleased {};
 
 /// One scanline of one splat inside a tile, Gaussian Slicing Unit -> Span Unit.
@@ -78,7 +82,7 @@ struct RowItem {
     std::uint32_t splat = 0; ///< DataPath index
     std::int16_t row = 0;    ///< inside the tile
     bool end = false;        ///< end of the tile instead of a row
-    DrawnRow drawn;          ///< if TileDrawing draws
+    RowOutcome outcome;      ///< of a FunctionalModel, if there is one
     template <class Visitor>
     void visit(Visitor& visitor) const {
         visitor.number("tile", tile);
@@ -88,11 +92,11 @@ struct RowItem {
     }
 };
 
-/// Span Unit -> Issue Bank.
+/// The Span Vector of a row, or the end of a tile, Span Unit -> Issue Bank.
 struct SpanItem {
     std::optional<RowSpan> span; ///< none: the end of the tile
     TileNumber tile = 0;
-    DrawnRow drawn; ///< if TileDrawing draws: the span then has no g0 and d0
+    RowOutcome outcome; ///< of a FunctionalModel, if there is one: the span then has no g0 and d0
     template <class Visitor>
     void visit(Visitor& visitor) const {
         visitor.number("tile", tile);
@@ -104,8 +108,8 @@ struct SpanItem {
     }
 };
 
-/// What becomes of the tasks of a segment, by bits of its mask; see DrawnRow.
-struct DrawnTasks {
+/// What becomes of the tasks of a segment, a bit of each mask for each task; see RowOutcome.
+struct TaskOutcome {
     std::uint32_t inside = 0, useful = 0, ended = 0;
 };
 
@@ -116,7 +120,7 @@ struct TaskRun {
     std::uint32_t part = 0; ///< tasks in this packet
     TileNumber tile = 0;
     std::uint32_t domain = 0; ///< conflict domain inside the bank's part of the tile
-    DrawnTasks drawn;         ///< if TileDrawing draws, in place of g0, d0 and offset
+    TaskOutcome outcome;      ///< of a FunctionalModel, in place of g0, d0 and offset
     template <class Visitor>
     void visit(Visitor& visitor) const {
         visitor.number("tile", tile);
@@ -206,7 +210,7 @@ struct RegionEnded {
     }
 };
 
-/// Array slice -> Tile Monitor and Pixel Buffer.
+/// Reports what a slice knows of a tile, array slice -> Tile Monitor and Pixel Buffer.
 struct SliceReport {
     TileNumber tile = 0;
     bool all_ended = false; ///< every pixel of the slice's rows has terminated

@@ -18,9 +18,10 @@ class RecordPlaces {
 public:
     RecordPlaces(const FrameWorkload& frame, RecordOrder order);
 
-    /// By splat.
+    /// The places of the records, by splat.
     const std::uint32_t* of_splats() const { return of_splats_.data(); }
-    /// By rank among the visible Gaussians in scene order; nullptr: the place is the rank.
+    /// The places by the Gaussian's rank among the visible ones in scene order; nullptr: the place
+    /// is the rank.
     const std::uint32_t* of_visible() const {
         return of_visible_.empty() ? nullptr : of_visible_.data();
     }

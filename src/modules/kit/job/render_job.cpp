@@ -48,17 +48,17 @@ void RenderJob::add(FramePointer frame, const MemoryBases& base) {
     background_tiles += grid.shown_tiles() - listed.size();
     std::uint64_t before = 0;
     for (const int t : listed) {
-        const PixelBox whole = grid.pixels_of(t), drawn = grid.drawn_of(t);
+        const PixelBox whole = grid.pixels_of(t), inside = grid.image_pixels_of(t);
         JobTile tile;
         tile.frame = f;
         tile.x = whole.x0;
         tile.y = whole.y0;
         tile.width = whole.width();
         tile.height = whole.height();
-        tile.cut_left = drawn.x0 - whole.x0;
-        tile.cut_top = drawn.y0 - whole.y0;
-        tile.cut_right = whole.x1 - drawn.x1;
-        tile.cut_bottom = whole.y1 - drawn.y1;
+        tile.cut_left = inside.x0 - whole.x0;
+        tile.cut_top = inside.y0 - whole.y0;
+        tile.cut_right = whole.x1 - inside.x1;
+        tile.cut_bottom = whole.y1 - inside.y1;
         tile.first = work.tile_begin[t];
         tile.count = work.tile_begin[t + 1] - tile.first;
         tile.list = work.tile_splats.data() + tile.first;

@@ -67,9 +67,9 @@ public:
     SlotRecorder(const SlotRecorder&) = delete;
     SlotRecorder& operator=(const SlotRecorder&) = delete;
 
-    /// A part of `width` PEs.
+    /// Adds a part of the array that has `width` PEs.
     SlotPart& add_part(int width) { return parts_.emplace_back(*this, width); }
-    /// What a block has still to add when the run is over.
+    /// Calls `add` when the run is over, for what a block has still to add then.
     void at_close(std::function<void()> add) { last_additions_.push_back(std::move(add)); }
     void read_out(TileNumber tile, Cycle date) {
         TileActivity& activity = of(tile);

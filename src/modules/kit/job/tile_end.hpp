@@ -29,7 +29,7 @@ public:
     bool over() const {
         return granted_streams_ == 0 ? job_.over(tiles_) : ended_streams_ == granted_streams_;
     }
-    /// Tiles done.
+    /// The number of tiles that the block has done.
     std::size_t tiles() const { return tiles_; }
 
 private:

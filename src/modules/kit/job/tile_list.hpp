@@ -27,13 +27,14 @@ struct JobTile {
     bool last_of_frame = false;
     bool passed = false; ///< sorted and fetched; its list is not asked for again
 
-    // The part inside the image, which is drawn; the list and the rows are those of the whole tile.
-    PixelRange columns() const { return drawn_columns().relative_to(-x); } ///< of the raster
-    PixelRange rows() const { return drawn_rows().relative_to(-y); }       ///< of the raster
-    PixelRange drawn_columns() const { return {cut_left, width - 1 - cut_right}; } ///< of the tile
-    PixelRange drawn_rows() const { return {cut_top, height - 1 - cut_bottom}; }   ///< of the tile
+    // The part inside the image, which is the one that is rendered. The list and the numbers of
+    // rows are those of the whole tile.
+    PixelRange columns() const { return image_columns().relative_to(-x); } ///< of the raster
+    PixelRange rows() const { return image_rows().relative_to(-y); }       ///< of the raster
+    PixelRange image_columns() const { return {cut_left, width - 1 - cut_right}; } ///< of the tile
+    PixelRange image_rows() const { return {cut_top, height - 1 - cut_bottom}; }   ///< of the tile
     std::int64_t pixels() const {
-        return std::int64_t{1} * drawn_columns().size() * drawn_rows().size();
+        return std::int64_t{1} * image_columns().size() * image_rows().size();
     }
     /// The splat at a place of its list, as the data path counts it.
     std::uint32_t splat(std::uint32_t place) const { return first_splat + list[place]; }

@@ -85,10 +85,10 @@ Completion BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int be
     const FrameWorkload& work = *job_.frames[frame];
     const TileGrid grid = work.grid();
     const int first = tile_row * work.tiles_x;
-    const int left = grid.drawn_of(first + begin).x0;
-    const int width = grid.drawn_of(first + end - 1).x1 + 1 - left;
-    const int top = grid.drawn_of(first).y0;
-    const int bottom = grid.drawn_of(first).y1 + 1;
+    const int left = grid.image_pixels_of(first + begin).x0;
+    const int width = grid.image_pixels_of(first + end - 1).x1 + 1 - left;
+    const int top = grid.image_pixels_of(first).y0;
+    const int bottom = grid.image_pixels_of(first).y1 + 1;
     // Rows as wide as the image follow each other.
     const int rows = width == work.camera.width ? bottom - top : 1;
     const std::uint64_t pixel_bytes = job_.pixel_bytes(frame, traffic_);

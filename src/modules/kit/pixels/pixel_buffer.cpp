@@ -117,8 +117,8 @@ PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& conf
 
 void PixelBuffer::clear(TileNumber number) {
     for (int row = share_.first_row; row < job_.tile_size; row += share_.row_stride) {
-        if (drawn_ != nullptr) {
-            drawn_->clear_row(number, row);
+        if (source_ != nullptr) {
+            source_->clear_row(number, row);
         } else {
             job_.path->begin_row(context_of(number), row);
         }
@@ -211,7 +211,7 @@ Completion PixelBuffer::write_rows(TileNumber number) {
     const MemoryMap map = job_.map(tile.frame, traffic_);
     const std::uint64_t pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
     const Camera& camera = job_.frame_of(tile).camera;
-    const PixelRange rows = tile.drawn_rows(), columns = tile.columns();
+    const PixelRange rows = tile.image_rows(), columns = tile.columns();
     const int per_cycle = pixels_per_cycle();
     const Cycle start = self_.local();
     Completion done = start;
@@ -248,11 +248,11 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
     Image& image = job_.images[tile.frame];
     const bool kept = !image.rgb.empty();
     const int pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
-    const PixelRange columns = tile.drawn_columns();
+    const PixelRange columns = tile.image_columns();
     pixels_.resize(columns.last + 1);
     bytes_.resize(std::size_t{1} * columns.size() * pixel_bytes);
-    if (drawn_ != nullptr) {
-        drawn_->read_row(number, y, columns.last + 1, pixels_.data());
+    if (source_ != nullptr) {
+        source_->read_row(number, y, columns.last + 1, pixels_.data());
     } else {
         job_.path->read_row(context_of(number), y, columns.last + 1, pixels_.data());
     }

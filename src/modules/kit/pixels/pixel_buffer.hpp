@@ -10,7 +10,7 @@
 #include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/traffic.hpp"
-#include "modules/kit/pixels/drawn_pixels.hpp"
+#include "modules/kit/pixels/pixel_source.hpp"
 #include "stats/statistics.hpp"
 #include "tlm/memory_port.hpp"
 
@@ -98,8 +98,9 @@ public:
     const Stats& stats() const { return stats_; }
     /// Pixels of its share that it reads out per cycle at most.
     int pixels_per_cycle() const { return std::max(1, config_.readout_pixels / share_.row_stride); }
-    /// Reads the tiles where they are drawn; before the simulation starts.
-    void read_from(DrawnPixels& drawn) { drawn_ = &drawn; }
+    /// Reads the pixels of tiles from `source` in place of the data path; before the simulation
+    /// starts.
+    void read_from(PixelSource& source) { source_ = &source; }
     /// Dates at which each frame's last pixel of this share was in memory.
     const KeptList<Cycle>& frames_written() const { return frames_written_; }
 
@@ -120,7 +121,7 @@ private:
     int contexts_;
     Share share_;
     bool instant_;
-    DrawnPixels* drawn_ = nullptr; // nullptr: pixels lie in the contexts
+    PixelSource* source_ = nullptr; // nullptr: pixels lie in the contexts
     Process self_;
     Completion written_;                // completion of the latest write
     Cycle read_out_ = 0;                // date at which the latest pixel had been read out

@@ -16,7 +16,7 @@ public:
     std::vector<std::string> units() const override { return {"memory"}; }
     PreparationCycles preparation(const FrameWorkload&) const override { return {}; }
     std::unique_ptr<TileClock> clock(const FrameWorkload&) const override { return nullptr; }
-    CoarseTile::Options drawing() const override { return {}; }
+    CoarseTile::Options coarse_options() const override { return {}; }
     Blocks blocks() const override { return {}; }
     int sorters() const override { return sorters_; }
     SortCycles sort_cycles(double entries, double) const override {

@@ -10,21 +10,23 @@ namespace degs {
 
 class SpanTurns;
 
-/// A lane of the Span Buffer, its Span Unit and its ring of the crossbar, where rows come drawn
-/// (TileDrawing) and the unit reaches one bank: every row of a frame passes here. What is in the
-/// rows was drawn before, so that they stay where the Slicing Unit has put them until the bank has
-/// cut them; when the lane has room, when the unit takes a row, when the crossbar has room for it,
-/// and when the bank may read it, is worked out here. Dates and counts are those of SpanUnit and
-/// DatedFifo, which do the same for all other designs and in strict mode. A unit that serves
-/// several streams takes their rows in turn (SpanTurns).
+/// Replays rows that a FunctionalModel has rasterised on their way through a lane of the Span
+/// Buffer, its Span Unit and its ring of the crossbar, where the unit reaches one bank. Every row
+/// of a frame passes here, and the outcome of a row is known before it comes. So rows stay in the
+/// place where the Slicing Unit has put them until the bank has cut them, and only dates are worked
+/// out: when the lane has room, when the unit takes a row, when the crossbar has room for it, and
+/// when the bank may read it. Dates and counts are those of SpanUnit and DatedFifo, which do the
+/// same for all other designs and in strict mode. A unit that serves several streams takes their
+/// rows in turn (SpanTurns).
 ///
-/// It is itself the ring that the bank reads; lane() is the one that the Slicing Unit writes.
-class DrawnSpans final : public FifoBase, public Pumped {
+/// The object itself is the ring that the bank reads; lane() is the one that the Slicing Unit
+/// writes.
+class SpanReplay final : public FifoBase, public Pumped {
 public:
     static constexpr std::int16_t kEnd = -1;
     /// A row inside a tile, or the end of the tile.
     struct alignas(64) Row {
-        RowMask inside, useful, ended; ///< see DrawnRow
+        RowMask inside, useful, ended; ///< see RowOutcome
         TileNumber tile = 0;
         std::uint32_t splat = 0;         ///< DataPath index
         std::int16_t x0 = 0, length = 0; ///< pixels; kEnd: the end of the tile
@@ -32,13 +34,13 @@ public:
         bool end() const { return length == kEnd; }
     };
 
-    /// What `unit` does with `rows` for `bank`. Both rings stay empty.
-    DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows, DatedFifo<SpanItem>& ring,
+    /// Stands for what `unit` does with `rows` for `bank`. The rings `rows` and `ring` stay empty.
+    SpanReplay(Process& unit, Process& bank, DatedFifo<RowItem>& rows, DatedFifo<SpanItem>& ring,
                const SpanStage::Config& config, SpanStage::Stats& stats, TileEnd& tiles);
 
-    /// Tells of every row that the unit has taken; before the simulation starts.
+    /// Has every row that the unit takes reported to `solved`; before the simulation starts.
     void report_to(DatedFifo<RowSolved>& solved) { solved_ = &solved; }
-    /// `turns` takes the rows for the unit; before the simulation starts.
+    /// Leaves it to `turns` to take the rows for the unit; before the simulation starts.
     void take_with(SpanTurns& turns) {
         turns_ = &turns;
         holding_ = true;
@@ -52,16 +54,16 @@ public:
             make_room(writer);
         }
     }
-    /// A row of a splat enters the lane, or the end of a tile; after reserve().
+    /// Puts a row of a splat into the lane, or the end of a tile. Call reserve() before.
     inline void put(Process& writer, TileNumber tile, std::uint32_t splat, int y,
-                    const DrawnRow& drawn);
+                    const RowOutcome& outcome);
     void put_end(Process& writer, TileNumber tile);
 
     // For the bank.
-    /// The oldest row. Only if not empty().
+    /// The oldest row that the bank has not taken. Only if not empty().
     const Row& front() const { return rows_[cells_[taken_ & mask_].row & rows_mask_]; }
-    /// The bank has taken the oldest one at `now`. It may still be looked at until the next one is
-    /// taken.
+    /// Removes the oldest row, which the bank has taken at `now`. The bank may still look at it
+    /// until it takes the next one.
     inline void drop(Cycle now);
     /// Takes rows from the lane until it is empty, or the crossbar is full and the unit holds
     /// another span.
@@ -82,7 +84,7 @@ public:
     inline void send(std::size_t number, Cycle now);
     TileNumber tile_of(std::size_t number) const { return rows_[number & rows_mask_].tile; }
 
-    /// To be added to those of the rings.
+    /// What passed here in place of the ring of the crossbar, to be added to the ring's own counts.
     DatedFifo<SpanItem>::Stats counts() const {
         DatedFifo<SpanItem>::Stats counts = counts_;
         counts.items = taken_;
@@ -101,7 +103,7 @@ public:
     }
 
 private:
-    /// What others ask about the lane.
+    /// The lane as the Slicing Unit and the proofs of other processes see it.
     class Lane final : public FifoBase {
     public:
         explicit Lane(DatedFifo<RowItem>& ring)
@@ -159,7 +161,7 @@ private:
     std::vector<Row> rows_;      // from the one that the bank has taken last on
     std::vector<Cycle> entered_; // into the lane, of each
     std::size_t rows_mask_ = 0;
-    std::vector<std::vector<Row>> left_; // rows that were too few: the bank may look at one
+    std::vector<std::vector<Row>> left_; // outgrown arrays: the bank may still look at a row of one
     std::size_t put_ = 0;                // rows so far
     std::size_t kept_from_ = 0;          // the row that the bank has taken last
     std::vector<Cycle> reads_;           // of the item that has left a place of the lane last
@@ -175,30 +177,31 @@ private:
     std::size_t held_ = 0;
 };
 
-inline __attribute__((always_inline)) DrawnSpans::Row& DrawnSpans::next_row() {
+inline __attribute__((always_inline)) SpanReplay::Row& SpanReplay::next_row() {
     if (put_ - kept_from_ == rows_.size()) {
         add_rows();
     }
     return rows_[put_ & rows_mask_];
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::put(Process& writer, TileNumber tile,
+inline __attribute__((always_inline)) void SpanReplay::put(Process& writer, TileNumber tile,
                                                            std::uint32_t splat, int y,
-                                                           const DrawnRow& drawn) {
+                                                           const RowOutcome& outcome) {
     Row& row = next_row();
-    row.inside = drawn.inside;
-    row.useful = drawn.useful;
-    row.ended = drawn.ended;
+    row.inside = outcome.inside;
+    row.useful = outcome.useful;
+    row.ended = outcome.ended;
     row.tile = tile;
     row.splat = splat;
-    row.x0 = inside_tile(drawn.x0);
-    row.length = inside_tile(drawn.length);
+    row.x0 = inside_tile(outcome.x0);
+    row.length = inside_tile(outcome.length);
     row.row = inside_tile(y);
     enter(writer.local());
 }
 
-// The unit takes it at once, unless it holds another one, and the lane may have more.
-inline __attribute__((always_inline)) void DrawnSpans::enter(Cycle now) {
+// An item enters the lane. The unit takes it at once, unless the unit holds another item; then the
+// lane may have more items already.
+inline __attribute__((always_inline)) void SpanReplay::enter(Cycle now) {
     const std::size_t number = put_++;
     if (!holding_) {
         solve(number, now);
@@ -214,7 +217,7 @@ inline __attribute__((always_inline)) void DrawnSpans::enter(Cycle now) {
     }
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::count_taken(std::size_t number,
+inline __attribute__((always_inline)) void SpanReplay::count_taken(std::size_t number,
                                                                    Cycle written, Cycle now) {
     lane_counts_.occupied_cycles += now - written;
     // The mark rises by one where as many items as before it were still inside.
@@ -225,8 +228,8 @@ inline __attribute__((always_inline)) void DrawnSpans::count_taken(std::size_t n
     reads_[number & reads_mask_] = now;
 }
 
-// The unit takes a row.
-inline __attribute__((always_inline)) void DrawnSpans::solve(std::size_t number, Cycle written) {
+// The unit takes a row that was written at `written`.
+inline __attribute__((always_inline)) void SpanReplay::solve(std::size_t number, Cycle written) {
     const Cycle free = unit_.local();
     const Cycle now = std::max(free, written + lane_.forward_latency());
     lane_counts_.empty_cycles += now - free;
@@ -246,8 +249,8 @@ inline __attribute__((always_inline)) void DrawnSpans::solve(std::size_t number,
     }
 }
 
-// The crossbar is full.
-inline __attribute__((always_inline)) void DrawnSpans::hold(std::size_t number, Cycle now) {
+// The unit holds the span, because the crossbar is full.
+inline __attribute__((always_inline)) void SpanReplay::hold(std::size_t number, Cycle now) {
     unit_.advance_to(now);
     holding_ = true;
     held_ = number;
@@ -255,7 +258,7 @@ inline __attribute__((always_inline)) void DrawnSpans::hold(std::size_t number, 
 }
 
 // A span enters the crossbar, which has room.
-inline __attribute__((always_inline)) void DrawnSpans::deliver(std::size_t number, Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::deliver(std::size_t number, Cycle now) {
     const Cycle written = std::max(now, cells_[(made_ - depth_) & mask_].read + release_latency_);
     counts_.full_cycles += written - now;
     Cell& cell = cells_[made_++ & mask_];
@@ -269,7 +272,7 @@ inline __attribute__((always_inline)) void DrawnSpans::deliver(std::size_t numbe
     }
 }
 
-inline __attribute__((always_inline)) std::size_t DrawnSpans::leave(Cycle now) {
+inline __attribute__((always_inline)) std::size_t SpanReplay::leave(Cycle now) {
     const std::size_t number = put_ - lane_.items();
     const bool was_full = lane_.full();
     count_taken(number, entered_[number & rows_mask_], now);
@@ -284,7 +287,7 @@ inline __attribute__((always_inline)) std::size_t DrawnSpans::leave(Cycle now) {
     return number;
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::take_row(Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::take_row(Cycle now) {
     const std::size_t number = leave(now);
     stats_.rows++;
     stats_.busy += cycles_per_row_;
@@ -298,7 +301,7 @@ inline __attribute__((always_inline)) void DrawnSpans::take_row(Cycle now) {
     send(number, now);
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::send(std::size_t number, Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::send(std::size_t number, Cycle now) {
     Cell& cell = cells_[made_++ & mask_];
     cell.date = now + forward_latency_;
     cell.row = number;
@@ -308,7 +311,7 @@ inline __attribute__((always_inline)) void DrawnSpans::send(std::size_t number, 
     }
 }
 
-inline __attribute__((always_inline)) void DrawnSpans::drop(Cycle now) {
+inline __attribute__((always_inline)) void SpanReplay::drop(Cycle now) {
     Cell& cell = cells_[taken_ & mask_];
     const Cycle written = cell.date - forward_latency_;
     counts_.occupied_cycles += now - written;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows that are drawn whole are those that are solved and blended segment by segment, to the last
-// bit.
+// Rows that are rasterised whole are those that are solved and blended segment by segment, to the
+// last bit.
 #include <algorithm>
 #include <cstring>
 #include <tuple>
@@ -17,17 +17,17 @@ constexpr int kSegment = 16;
 constexpr int kTileX = 128, kTileY = 64;
 
 /// A row of a splat as Span Units and PEs do it.
-DrawnRow by_segments(DataPath& path, const TileRows& rows, int row) {
+RowOutcome by_segments(DataPath& path, const TileRows& rows, int row) {
     const int y = rows.tile_y + row;
     const std::optional<RowSpan> span =
         rows.tests ? row_of_box(path, rows.splat, y, rows.x_begin, rows.x_end, rows.tile_y)
                    : path.solve_row(rows.splat, y, rows.x_begin, rows.x_end, rows.tile_y);
-    DrawnRow drawn;
+    RowOutcome outcome_of_row;
     if (!span) {
-        return drawn;
+        return outcome_of_row;
     }
-    drawn.x0 = span->x0;
-    drawn.length = span->length;
+    outcome_of_row.x0 = span->x0;
+    outcome_of_row.length = span->length;
     for (int column = 0; column < rows.x_end - rows.x_begin; column += kSegment) {
         const int begin = std::clamp(span->x0 - column, 0, kSegment);
         const int end = std::clamp(span->x0 + span->length - column, 0, kSegment);
@@ -45,19 +45,19 @@ DrawnRow by_segments(DataPath& path, const TileRows& rows, int row) {
         }
         const BlendOutcome outcome =
             rows.tests ? path.test(test_of(task, rows.x_begin, rows.tile_y)) : path.blend(task);
-        drawn.inside.put(outcome.useful | outcome.terminated, column);
-        drawn.useful.put(outcome.useful, column);
-        drawn.ended.put(outcome.ended, column);
+        outcome_of_row.inside.put(outcome.useful | outcome.terminated, column);
+        outcome_of_row.useful.put(outcome.useful, column);
+        outcome_of_row.ended.put(outcome.ended, column);
     }
-    return drawn;
+    return outcome_of_row;
 }
 
-void expect_same(const DrawnRow& drawn, const DrawnRow& expected) {
-    EXPECT_EQ(drawn.length, expected.length);
-    EXPECT_EQ(drawn.length == 0 ? 0 : drawn.x0, expected.length == 0 ? 0 : expected.x0);
-    EXPECT_TRUE(drawn.inside == expected.inside);
-    EXPECT_TRUE(drawn.useful == expected.useful);
-    EXPECT_TRUE(drawn.ended == expected.ended);
+void expect_same(const RowOutcome& found, const RowOutcome& expected) {
+    EXPECT_EQ(found.length, expected.length);
+    EXPECT_EQ(found.length == 0 ? 0 : found.x0, expected.length == 0 ? 0 : expected.x0);
+    EXPECT_TRUE(found.inside == expected.inside);
+    EXPECT_TRUE(found.useful == expected.useful);
+    EXPECT_TRUE(found.ended == expected.ended);
 }
 
 void expect_same(const PixelValue& pixel, const PixelValue& expected) {
@@ -81,36 +81,36 @@ std::vector<ProjectedSplat> splats_near(int size, unsigned seed) {
 }
 
 /// Numbers, tile size, whether the PEs test.
-class DrawRows
+class RasteriseRows
     : public ::testing::TestWithParam<std::tuple<Arithmetic, int, bool, SpanEnds, StopRule>> {};
 
-TEST_P(DrawRows, AreSegmentsInOneGo) {
+TEST_P(RasteriseRows, AreSegmentsInOneGo) {
     const auto [numbers, size, tests, ends, stop] = GetParam();
     DataPathOptions options = test::path_options(numbers, ends, ends == SpanEnds::Exact ? 0 : 1);
     options.stop = stop;
     const std::vector<ProjectedSplat> splats = splats_near(size, 7);
     const auto path = test::path_of(splats, options, size);
     const auto other = test::path_of(splats, options, size);
-    constexpr int kCanvas = 3;
-    path->hold_contexts(kCanvas + 1);
+    constexpr int kContext = 3;
+    path->hold_contexts(kContext + 1);
     TileRows rows;
-    rows.context = kCanvas;
+    rows.context = kContext;
     rows.x_begin = kTileX;
     rows.x_end = kTileX + size - 3; // the image ends inside the tile
     rows.tile_y = kTileY;
     rows.tests = tests;
-    std::vector<DrawnRow> drawn(size);
+    std::vector<RowOutcome> outcomes(size);
     int ended = 0;
     for (std::uint32_t s = 0; s < splats.size(); ++s) {
         rows.splat = s;
         rows.step = 1 + static_cast<int>(s % 3);
         rows.first = static_cast<int>(s % 5);
         rows.last = std::min(size - 1 - static_cast<int>(s % 2),
-                             rows.first + (kMostDrawnRows - 1) * rows.step);
-        path->draw_rows(rows, drawn.data());
+                             rows.first + (kMostRowsAtOnce - 1) * rows.step);
+        path->rasterise_rows(rows, outcomes.data());
         TileRows here = rows;
         here.context = 0;
-        const DrawnRow* next = drawn.data();
+        const RowOutcome* next = outcomes.data();
         for (int row = rows.first; row <= rows.last; row += rows.step) {
             expect_same(*next, by_segments(*other, here, row));
             ended += next++->ended.count();
@@ -119,12 +119,12 @@ TEST_P(DrawRows, AreSegmentsInOneGo) {
     EXPECT_NE(ended, 0) << "no pixel ended, so the test says little";
     for (int row = 0; row < size; ++row) {
         for (int column = 0; column < size; ++column) {
-            expect_same(path->read_pixel(kCanvas, row, column), other->read_pixel(0, row, column));
+            expect_same(path->read_pixel(kContext, row, column), other->read_pixel(0, row, column));
         }
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Numbers, DrawRows,
+INSTANTIATE_TEST_SUITE_P(Numbers, RasteriseRows,
                          ::testing::Combine(::testing::Values(Arithmetic::Fp32, Arithmetic::Fp64,
                                                               Arithmetic::Fp16, Arithmetic::Paper,
                                                               Arithmetic::Tuned),
@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Numbers, DrawRows,
                                             ::testing::Values(StopRule::Refuse, StopRule::After)));
 
 // The widest vectors, which the data path uses, and all others.
-TEST(DrawVariants, GiveTheSameBits) {
+TEST(RasteriseVariants, GiveTheSameBits) {
     SpanRecord<float> span{};
     span.pixel_x = 20;
     span.pixel_y = 9;
@@ -154,22 +154,23 @@ TEST(DrawVariants, GiveTheSameBits) {
     TileRows rows;
     rows.x_end = 45;
     rows.last = kRows - 1;
-    const std::vector<DrawFunction> variants = draw_variants();
+    const std::vector<RasteriseFunction> variants = rasterise_variants();
     ASSERT_FALSE(variants.empty());
     for (const bool exact : {true, false}) {
         PixelPlanes<float> first(kRows * kStride + kLanePadding);
-        std::vector<DrawnRow> expected(kRows);
+        std::vector<RowOutcome> expected(kRows);
         for (int i = 0; i < 30; ++i) {
             variants[0](rows, span, splat, {exact, 1}, true, first, firsts.data(), expected.data());
         }
-        for (const DrawFunction variant : variants) {
+        for (const RasteriseFunction variant : variants) {
             PixelPlanes<float> pixels(kRows * kStride + kLanePadding);
-            std::vector<DrawnRow> drawn(kRows);
+            std::vector<RowOutcome> outcomes(kRows);
             for (int i = 0; i < 30; ++i) {
-                variant(rows, span, splat, {exact, 1}, true, pixels, firsts.data(), drawn.data());
+                variant(rows, span, splat, {exact, 1}, true, pixels, firsts.data(),
+                        outcomes.data());
             }
             for (std::size_t row = 0; row < kRows; ++row) {
-                expect_same(drawn[row], expected[row]);
+                expect_same(outcomes[row], expected[row]);
             }
             for (std::size_t i = 0; i < kRows * kStride; ++i) {
                 expect_same(pixels.read(i), first.read(i));

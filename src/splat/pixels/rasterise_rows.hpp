@@ -11,24 +11,25 @@
 
 namespace degs {
 
-/// DataPath::draw_rows() of any data path, row by row. `Path` is the data path's own class, so that
-/// the calls need no table; solved(i, row) is the span of the i-th row, `row` of the tile, without
-/// a pixel if its length is 0. It is not asked for if PEs test.
+/// DataPath::rasterise_rows() of any data path, row by row. `Path` is the data path's own class, so
+/// that the calls need no table; solved(i, row) is the span of the i-th row, `row` of the tile,
+/// without a pixel if its length is 0. It is not asked for if PEs test.
 template <class Path, class Solved>
-void draw_row_by_row(Path& path, const TileRows& rows, const Solved& solved, DrawnRow* drawn) {
+void rasterise_row_by_row(Path& path, const TileRows& rows, const Solved& solved,
+                          RowOutcome* outcomes) {
     constexpr int kTasks = 32; // of a BlendTask
     int index = 0;
-    for (int row = rows.first; row <= rows.last; row += rows.step, ++drawn, ++index) {
+    for (int row = rows.first; row <= rows.last; row += rows.step, ++outcomes, ++index) {
         RowSpan span = rows.tests ? row_of_box(path, rows.splat, rows.tile_y + row, rows.x_begin,
                                                rows.x_end, rows.tile_y)
                                         .value_or(RowSpan())
                                   : solved(index, row);
-        *drawn = DrawnRow();
-        if (!cut(span, rows.drawn)) {
+        *outcomes = RowOutcome();
+        if (!cut(span, rows.image_columns)) {
             continue;
         }
-        drawn->x0 = span.x0;
-        drawn->length = span.length;
+        outcomes->x0 = span.x0;
+        outcomes->length = span.length;
         BlendTask task;
         task.g0 = span.g0;
         task.d0 = span.d0;
@@ -42,20 +43,20 @@ void draw_row_by_row(Path& path, const TileRows& rows, const Solved& solved, Dra
             task.offset = inside_tile(column - span.base);
             const BlendOutcome outcome =
                 rows.tests ? path.test(test_of(task, rows.x_begin, rows.tile_y)) : path.blend(task);
-            drawn->inside.put(outcome.useful | outcome.terminated, column);
-            drawn->useful.put(outcome.useful, column);
-            drawn->ended.put(outcome.ended, column);
+            outcomes->inside.put(outcome.useful | outcome.terminated, column);
+            outcomes->useful.put(outcome.useful, column);
+            outcomes->ended.put(outcome.ended, column);
         }
     }
 }
 
 template <class Path>
-void draw_row_by_row(Path& path, const TileRows& rows, DrawnRow* drawn) {
+void rasterise_row_by_row(Path& path, const TileRows& rows, RowOutcome* outcomes) {
     const auto solved = [&](int /*index*/, int row) {
         return path.solve_row(rows.splat, rows.tile_y + row, rows.x_begin, rows.x_end, rows.tile_y)
             .value_or(RowSpan());
     };
-    draw_row_by_row(path, rows, solved, drawn);
+    rasterise_row_by_row(path, rows, solved, outcomes);
 }
 
 } // namespace degs

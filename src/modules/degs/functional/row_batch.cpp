@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/degs/drawing/drawn_sheet.hpp"
+#include "modules/degs/functional/row_batch.hpp"
 
 #include <algorithm>
 
 namespace degs {
 
-std::uint32_t DrawnSheet::splats_of(const JobTile& tile, std::uint32_t index) {
+std::uint32_t RowBatch::splats_of(const JobTile& tile, std::uint32_t index) {
     return static_cast<std::uint32_t>(
         std::min<std::uint64_t>(kSplats, tile.count - std::uint64_t{index} * kSplats));
 }
 
-void DrawnSheet::draw(RenderJob& job, const JobTile& tile, std::uint32_t index,
-                      const DrawingOptions& options, TileCanvases& canvases, int canvas) {
+void RowBatch::rasterise(RenderJob& job, const JobTile& tile, std::uint32_t index,
+                         const FunctionalOptions& options, TileContexts& contexts, int context) {
     const std::uint32_t first = index * kSplats;
     const std::uint32_t count = splats_of(tile, index);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -20,19 +20,19 @@ void DrawnSheet::draw(RenderJob& job, const JobTile& tile, std::uint32_t index,
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t splat = tile.splat(first + i);
         const PixelRange rows = sliced_rows(job, tile, splat, options.rows);
-        const std::size_t before = drawn.size();
+        const std::size_t before = outcomes.size();
         splats[i] = {rows, before};
         if (!rows.empty()) {
-            drawn.resize(before + rows.size());
-            canvases.draw(canvas, tile, splat, rows, 1, &drawn[before]);
+            outcomes.resize(before + rows.size());
+            contexts.rasterise(context, tile, splat, rows, 1, &outcomes[before]);
         }
     }
     takes = count * options.modules;
 }
 
-std::int64_t DrawnSheet::ended_pixels() const {
+std::int64_t RowBatch::ended_pixels() const {
     std::int64_t ended = 0;
-    for (const DrawnRow& row : drawn) {
+    for (const RowOutcome& row : outcomes) {
         ended += row.ended.count();
     }
     return ended;

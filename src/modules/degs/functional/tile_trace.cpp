@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/degs/drawing/drawn_tile_code.hpp"
+#include "modules/degs/functional/tile_trace.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 namespace degs {
 namespace {
 
-// The head: sheets, bytes of the rows, and whether pixels are in single precision. Ends of sheets,
-// pixels and rows follow.
+// The head of a trace has three numbers: how many batches and how many pixels follow, and whether
+// pixels are in single precision. The ends of the batches, the pixels and the rows come behind it.
 using Head = std::array<std::uint32_t, 3>;
 
 // Says which masks of a row are stored, because they do not follow from the span.
@@ -27,7 +27,7 @@ int bytes_of(int bits) {
     return (bits + 7) / 8;
 }
 
-// Bits of a mask from column x0 on. A mask has 128 bits, and from() gives 32 of them.
+// Appends the bits of a mask from column x0 on, byte by byte.
 void put_mask(std::string& to, const RowMask& mask, int x0, int length) {
     for (int byte = 0; byte < bytes_of(length); ++byte) {
         to.push_back(static_cast<char>(mask.from(x0 + 8 * byte) & 0xFFU));
@@ -47,7 +47,8 @@ std::uint64_t ones(int bits) {
     return bits >= 64 ? ~std::uint64_t{0} : bits <= 0 ? 0 : (std::uint64_t{1} << bits) - 1;
 }
 
-// Bytes beyond the mask are read, too, and cut off.
+// Reads a mask as one or two whole words, because that is faster than byte by byte, and cuts off
+// the bits beyond it.
 RowMask take_mask(const char*& from, int x0, int length) {
     std::uint64_t words[2] = {0, 0};
     std::memcpy(words, from, length <= RowMask::kHalf ? sizeof words[0] : sizeof words);
@@ -59,12 +60,12 @@ RowMask take_mask(const char*& from, int x0, int length) {
     return mask_of(words[0] & ones(length), words[1] & ones(length - RowMask::kHalf), x0);
 }
 
-// All pixels of a span.
+// The mask of all pixels of a span.
 RowMask span_mask(int x0, int length) {
     return mask_of(ones(length), ones(length - RowMask::kHalf), x0);
 }
 
-void put_row(std::string& to, const DrawnRow& row) {
+void put_row(std::string& to, const RowOutcome& row) {
     to.push_back(static_cast<char>(row.x0));
     to.push_back(static_cast<char>(row.length));
     if (row.length == 0) {
@@ -86,8 +87,8 @@ void put_row(std::string& to, const DrawnRow& row) {
     }
 }
 
-void take_row(const char*& from, DrawnRow& row) {
-    row = DrawnRow();
+void take_row(const char*& from, RowOutcome& row) {
+    row = RowOutcome();
     row.x0 = static_cast<unsigned char>(*from++);
     row.length = static_cast<unsigned char>(*from++);
     if (row.length == 0) {
@@ -136,7 +137,7 @@ bool is_float(double value) {
     return static_cast<double>(static_cast<float>(value)) == value;
 }
 
-// All values of formats up to 32 bits are.
+// True for all values of number formats of up to 32 bits, which then take half of the bytes.
 bool are_floats(const std::vector<PixelValue>& pixels) {
     return std::all_of(pixels.begin(), pixels.end(), [](const PixelValue& pixel) {
         return is_float(pixel.transmittance) && std::all_of(pixel.rgb, pixel.rgb + 3, is_float);
@@ -145,10 +146,10 @@ bool are_floats(const std::vector<PixelValue>& pixels) {
 
 } // namespace
 
-void DrawnTileWriter::add(const DrawnSheet& sheet, std::uint32_t splats) {
-    const DrawnRow* row = sheet.drawn.data();
+void TileTraceWriter::add(const RowBatch& batch, std::uint32_t splats) {
+    const RowOutcome* row = batch.outcomes.data();
     for (std::uint32_t i = 0; i < splats; ++i) {
-        const PixelRange& rows = sheet.splats[i].rows;
+        const PixelRange& rows = batch.splats[i].rows;
         const auto count = static_cast<unsigned char>(rows.empty() ? 0 : rows.size());
         rows_.push_back(static_cast<char>(count));
         if (count != 0) {
@@ -161,7 +162,7 @@ void DrawnTileWriter::add(const DrawnSheet& sheet, std::uint32_t splats) {
     ends_.push_back(static_cast<std::uint32_t>(rows_.size()));
 }
 
-std::string DrawnTileWriter::bytes(const std::vector<PixelValue>& pixels) const {
+std::string TileTraceWriter::bytes(const std::vector<PixelValue>& pixels) const {
     const bool single = are_floats(pixels);
     std::string to;
     put(to, Head{static_cast<std::uint32_t>(ends_.size()),
@@ -173,21 +174,21 @@ std::string DrawnTileWriter::bytes(const std::vector<PixelValue>& pixels) const 
     return (to += rows_).append(sizeof(RowMask), '\0'); // for take_mask()
 }
 
-DrawnTileReader::DrawnTileReader(std::string_view bytes) {
+TileTraceReader::TileTraceReader(std::string_view bytes) {
     if (bytes.data() == nullptr) {
         return;
     }
     Head head;
     std::memcpy(&head, bytes.data(), sizeof head);
-    sheets_ = head[0];
+    batches_ = head[0];
     single_ = head[2] != 0;
     ends_ = bytes.data() + sizeof head;
-    pixels_ = ends_ + sheets_ * sizeof(std::uint32_t);
+    pixels_ = ends_ + batches_ * sizeof(std::uint32_t);
     rows_ =
         pixels_ + head[1] * (single_ ? sizeof(StoredPixel<float>) : sizeof(StoredPixel<double>));
 }
 
-void DrawnTileReader::read(std::uint32_t index, std::uint32_t splats, DrawnSheet& sheet) const {
+void TileTraceReader::read(std::uint32_t index, std::uint32_t splats, RowBatch& batch) const {
     std::uint32_t begin = 0;
     if (index != 0) {
         std::memcpy(&begin, ends_ + (index - 1) * sizeof begin, sizeof begin);
@@ -195,20 +196,20 @@ void DrawnTileReader::read(std::uint32_t index, std::uint32_t splats, DrawnSheet
     const char* from = rows_ + begin;
     for (std::uint32_t i = 0; i < splats; ++i) {
         const int count = static_cast<unsigned char>(*from++);
-        const std::size_t before = sheet.drawn.size();
-        sheet.splats[i] = {PixelRange{}, before};
+        const std::size_t before = batch.outcomes.size();
+        batch.splats[i] = {PixelRange{}, before};
         if (count != 0) {
             const int first = static_cast<unsigned char>(*from++);
-            sheet.splats[i].rows = {first, first + count - 1};
-            sheet.drawn.resize(before + count);
+            batch.splats[i].rows = {first, first + count - 1};
+            batch.outcomes.resize(before + count);
             for (int k = 0; k < count; ++k) {
-                take_row(from, sheet.drawn[before + k]);
+                take_row(from, batch.outcomes[before + k]);
             }
         }
     }
 }
 
-void DrawnTileReader::read_pixels(std::size_t first, std::size_t count, PixelValue* pixels) const {
+void TileTraceReader::read_pixels(std::size_t first, std::size_t count, PixelValue* pixels) const {
     single_ ? take_pixels<float>(pixels_, first, count, pixels)
             : take_pixels<double>(pixels_, first, count, pixels);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that draws ahead, and tiles that other simulations have kept, give what drawing on
-// demand gives, whatever the simulation takes and when.
-#include "modules/degs/drawing/drawing_thread.hpp"
+// A functional model on a thread of its own, and traces that other simulations have kept, give what
+// rasterising on demand gives, whatever the simulation takes and when.
+#include "modules/degs/functional/functional_thread.hpp"
 
 #include <random>
 #include <thread>
@@ -11,7 +11,7 @@
 
 namespace degs {
 
-static bool operator==(const DrawnRow& a, const DrawnRow& b) {
+static bool operator==(const RowOutcome& a, const RowOutcome& b) {
     return a.inside == b.inside && a.useful == b.useful && a.ended == b.ended && a.x0 == b.x0 &&
            a.length == b.length;
 }
@@ -24,16 +24,16 @@ namespace {
 
 using test::random_frame;
 
-/// Whether tiles are drawn on a thread; restores the number of threads.
-struct Drawn {
-    explicit Drawn(bool ahead) { limit_host_threads(ahead ? 2 : 1); }
-    ~Drawn() { limit_host_threads(static_cast<int>(std::thread::hardware_concurrency())); }
-    Drawn(const Drawn&) = delete;
-    Drawn& operator=(const Drawn&) = delete;
+/// Sets whether the model has a thread of its own; restores the number of threads.
+struct HostThreads {
+    explicit HostThreads(bool ahead) { limit_host_threads(ahead ? 2 : 1); }
+    ~HostThreads() { limit_host_threads(static_cast<int>(std::thread::hardware_concurrency())); }
+    HostThreads(const HostThreads&) = delete;
+    HostThreads& operator=(const HostThreads&) = delete;
 };
 
 struct Taken {
-    std::vector<DrawnRow> rows;
+    std::vector<RowOutcome> rows;
     std::vector<PixelValue> pixels;
     std::uint64_t fragments = 0;
 };
@@ -50,7 +50,7 @@ struct Reader {
 /// in the job at first.
 class Simulation {
 public:
-    Simulation(RenderJob& job, const DrawingOptions& options, std::uint32_t seed)
+    Simulation(RenderJob& job, const FunctionalOptions& options, std::uint32_t seed)
         : job_(job), options_(options), random_(seed) {}
 
     Taken run(std::size_t joining = 0, const KeptTiles& kept = {}) {
@@ -62,24 +62,24 @@ public:
             }
         };
         join(joining == 0 ? all.size() : joining);
-        const std::unique_ptr<TileDrawing> drawing = make_tile_drawing(job_, options_, kept);
+        const std::unique_ptr<FunctionalModel> model = make_functional_model(job_, options_, kept);
         Taken taken;
         taken.pixels.reserve(100000);
         for (TileNumber first = 0; first < all.size(); first += kAtOnce) {
             join(first + kAtOnce);
-            run_tiles(*drawing, first,
+            run_tiles(*model, first,
                       std::min<std::size_t>(all.size(), std::size_t{first} + kAtOnce), taken);
         }
-        taken.fragments = drawing->fragments();
+        taken.fragments = model->fragments();
         return taken;
     }
 
 private:
     static constexpr TileNumber kAtOnce = 3;
 
-    void run_tiles(TileDrawing& drawing, TileNumber first, std::size_t end, Taken& taken) {
+    void run_tiles(FunctionalModel& model, TileNumber first, std::size_t end, Taken& taken) {
         std::vector<Reader> readers;
-        std::vector<std::vector<DrawnRow>> rows((end - first) * options_.modules);
+        std::vector<std::vector<RowOutcome>> rows((end - first) * options_.modules);
         for (TileNumber tile = first; tile < end; ++tile) {
             for (int module = 0; module < options_.modules; ++module) {
                 const auto count = static_cast<std::uint32_t>(job_.tiles[tile].count);
@@ -99,54 +99,54 @@ private:
                     reader.end, reader.place + 1 + static_cast<std::uint32_t>(random_() % 90));
                 live[number] = -1;
             }
-            step(drawing, reader, rows[number * options_.modules + reader.module], live[number]);
+            step(model, reader, rows[number * options_.modules + reader.module], live[number]);
             if (reader.place >= reader.end) {
                 readers.erase(readers.begin() + static_cast<std::ptrdiff_t>(next));
             }
         }
-        for (const std::vector<DrawnRow>& of_module : rows) {
+        for (const std::vector<RowOutcome>& of_module : rows) {
             taken.rows.insert(taken.rows.end(), of_module.begin(), of_module.end());
         }
         for (TileNumber tile = first; tile < end; ++tile) {
-            read_out(drawing, tile, taken);
+            read_out(model, tile, taken);
         }
     }
 
-    void step(TileDrawing& drawing, Reader& reader, std::vector<DrawnRow>& rows,
+    void step(FunctionalModel& model, Reader& reader, std::vector<RowOutcome>& rows,
               std::int64_t& live) {
-        const PixelRange all = drawing.rows(reader.tile, reader.place);
+        const PixelRange all = model.rows(reader.tile, reader.place);
         const int step = options_.modules;
         PixelRange own = all;
         own.first += (reader.module - all.first % step + step) % step;
         const std::size_t before = rows.size();
         rows.resize(before + (own.empty() ? 0 : (own.last - own.first) / step + 1));
-        drawing.take(reader.tile, reader.place, own, step, rows.data() + before);
+        model.take(reader.tile, reader.place, own, step, rows.data() + before);
         for (std::size_t i = before; i < rows.size(); ++i) {
             live -= rows[i].ended.count();
         }
         ++reader.place;
     }
 
-    void read_out(TileDrawing& drawing, TileNumber number, Taken& taken) {
+    void read_out(FunctionalModel& model, TileNumber number, Taken& taken) {
         const JobTile tile = job_.tiles[number];
         for (int row = 0; row < job_.tile_size; ++row) {
             if (row < tile.height) {
                 taken.pixels.resize(taken.pixels.size() + tile.width);
-                drawing.read_row(number, row, tile.width,
-                                 taken.pixels.data() + taken.pixels.size() - tile.width);
+                model.read_row(number, row, tile.width,
+                               taken.pixels.data() + taken.pixels.size() - tile.width);
             }
-            drawing.clear_row(number, row);
+            model.clear_row(number, row);
         }
     }
 
     RenderJob& job_;
-    DrawingOptions options_;
+    FunctionalOptions options_;
     std::mt19937 random_;
 };
 
 struct Case {
     const char* numbers;
-    DrawingOptions options;
+    FunctionalOptions options;
     int splats;
     std::size_t joining;
 };
@@ -155,19 +155,19 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
                << (c.options.tests ? "_tested" : "") << (c.joining != 0 ? "_joining" : "");
 }
 
-class DrawingOnThread : public ::testing::TestWithParam<Case> {};
+class FunctionalOnThread : public ::testing::TestWithParam<Case> {};
 
-TEST_P(DrawingOnThread, GivesWhatDrawingOnDemandGives) {
+TEST_P(FunctionalOnThread, GivesWhatTheModelOnDemandGives) {
     const Case& given = GetParam();
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         const FrameWorkload frame = random_frame(seed, 150, 83, 32, given.splats);
-        const auto draw = [&](bool ahead) {
-            const Drawn drawn(ahead);
+        const auto taken = [&](bool ahead) {
+            const HostThreads threads(ahead);
             RenderJob job = make_render_job({&frame}, named_numbers(given.numbers), 2);
             return Simulation(job, given.options, seed).run(given.joining);
         };
-        const Taken demanded = draw(false);
-        const Taken ahead = draw(true);
+        const Taken demanded = taken(false);
+        const Taken ahead = taken(true);
         EXPECT_GT(demanded.fragments, 1000U);
         EXPECT_EQ(ahead.fragments, demanded.fragments);
         EXPECT_TRUE(ahead.rows == demanded.rows);
@@ -175,30 +175,30 @@ TEST_P(DrawingOnThread, GivesWhatDrawingOnDemandGives) {
     }
 }
 
-TEST_P(DrawingOnThread, GivesWhatAnotherSimulationHasKept) {
+TEST_P(FunctionalOnThread, GivesWhatAnotherSimulationHasKept) {
     const Case& given = GetParam();
     SharedBytes bytes(std::size_t{1} << 26U);
     const KeptTiles kept{&bytes, given.numbers};
     const FrameWorkload frame = random_frame(7, 150, 83, 32, given.splats);
-    const auto draw = [&](std::uint32_t seed, const KeptTiles& others) {
+    const auto taken = [&](std::uint32_t seed, const KeptTiles& others) {
         RenderJob job = make_render_job({&frame}, named_numbers(given.numbers), 2);
-        const Drawn drawn(false);
+        const HostThreads threads(false);
         return Simulation(job, given.options, seed).run(given.joining, others);
     };
     std::size_t used = 0;
     for (std::uint32_t seed = 1; seed <= 4; ++seed) { // the first one keeps, the others take
-        const Taken demanded = draw(seed, {});
-        const Taken shared = draw(seed, kept);
+        const Taken demanded = taken(seed, {});
+        const Taken shared = taken(seed, kept);
         EXPECT_EQ(shared.fragments, demanded.fragments);
         EXPECT_TRUE(shared.rows == demanded.rows);
         EXPECT_TRUE(shared.pixels == demanded.pixels);
         EXPECT_GT(bytes.used(), 1000U);
-        EXPECT_TRUE(seed == 1 || bytes.used() == used) << "a tile was drawn anew";
+        EXPECT_TRUE(seed == 1 || bytes.used() == used) << "a tile was rasterised anew";
         used = bytes.used();
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Designs, DrawingOnThread,
+INSTANTIATE_TEST_SUITE_P(Designs, FunctionalOnThread,
                          ::testing::Values(Case{"fp32", {false, SlicedRows::Splat, 1}, 4000, 0},
                                            Case{"fp64", {false, SlicedRows::Tile, 2}, 900, 0},
                                            Case{"paper", {false, SlicedRows::Tile, 4}, 3000, 0},
@@ -207,41 +207,42 @@ INSTANTIATE_TEST_SUITE_P(Designs, DrawingOnThread,
                                            Case{"tuned", {false, SlicedRows::Splat, 1}, 40, 0}),
                          ::testing::PrintToStringParamName());
 
-TEST(KeptDrawing, KeepsPixelsOfOtherNumbersApart) {
+TEST(FunctionalCache, KeepsPixelsOfOtherNumbersApart) {
     SharedBytes bytes(std::size_t{1} << 26U);
     const FrameWorkload frame = random_frame(7, 150, 83, 32, 300);
-    const auto draw = [&](const char* numbers, const KeptTiles& kept) {
+    const auto taken = [&](const char* numbers, const KeptTiles& kept) {
         RenderJob job = make_render_job({&frame}, named_numbers(numbers), 2);
         return Simulation(job, {}, 1).run(0, kept);
     };
     for (const char* numbers : {"fp32", "paper", "fp64"}) {
-        EXPECT_TRUE(draw(numbers, {&bytes, numbers}).pixels == draw(numbers, {}).pixels) << numbers;
+        EXPECT_TRUE(taken(numbers, {&bytes, numbers}).pixels == taken(numbers, {}).pixels)
+            << numbers;
     }
 }
 
-TEST(KeptDrawing, DrawsWhatFindsNoRoom) {
+TEST(FunctionalCache, RasterisesWhatFindsNoRoom) {
     const FrameWorkload frame = random_frame(7, 150, 83, 32, 300);
-    const auto draw = [&](const KeptTiles& kept) {
+    const auto taken = [&](const KeptTiles& kept) {
         RenderJob job = make_render_job({&frame}, named_numbers("fp32"), 2);
         return Simulation(job, {}, 1).run(0, kept);
     };
-    const Taken alone = draw({});
+    const Taken alone = taken({});
     for (const std::size_t room : {0, 100, 20000}) {
         SharedBytes bytes(room);
         for (int run = 0; run < 2; ++run) {
-            EXPECT_TRUE(draw({&bytes, "fp32"}).pixels == alone.pixels) << room << " bytes";
+            EXPECT_TRUE(taken({&bytes, "fp32"}).pixels == alone.pixels) << room << " bytes";
         }
     }
 }
 
-TEST(DrawingOnThreadAlone, EndsWithWorkLeft) {
+TEST(FunctionalOnThreadAlone, EndsWithWorkLeft) {
     const FrameWorkload frame = random_frame(5, 150, 83, 32, 4000);
-    const Drawn drawn(true);
+    const HostThreads threads(true);
     for (int taken = 0; taken < 3; ++taken) {
         RenderJob job = make_render_job({&frame}, named_numbers("fp32"), 2);
-        DrawingThread drawing(job, {});
+        FunctionalThread model(job, {});
         for (std::uint32_t place = 0; place < static_cast<std::uint32_t>(taken); ++place) {
-            EXPECT_FALSE(drawing.rows(1, 40 * place).empty());
+            EXPECT_FALSE(model.rows(1, 40 * place).empty());
         }
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/degs/drawing/drawing_thread.hpp"
+#include "modules/degs/functional/functional_thread.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,10 +9,11 @@ namespace {
 
 constexpr int kSpins =
     2000; // some 20 us: longer than most waits, and than it takes to sleep and wake
-// What the simulation has given back when it is worth waking the thread that has no room.
-constexpr std::size_t kWakingSheets = 16;
+// A thread that has no room is woken once the simulation has given back so much, because waking it
+// takes time, too.
+constexpr std::size_t kWakingBatches = 16;
 constexpr std::size_t kWakingTiles = 4;
-// A cache line's worth, times two.
+// Rows that are prefetched beyond those that are taken: about two cache lines.
 constexpr int kPrefetchedRows = 4;
 
 void relax() {
@@ -21,19 +22,19 @@ void relax() {
 #endif
 }
 
-std::uint64_t demand_for(TileNumber number, std::uint32_t sheet) {
-    return std::uint64_t{number} << 32U | sheet;
+std::uint64_t demand_for(TileNumber number, std::uint32_t batch) {
+    return std::uint64_t{number} << 32U | batch;
 }
 
 } // namespace
 
-DrawingThread::DrawingThread(RenderJob& job, const DrawingOptions& options)
-    : job_(job), options_(options), canvases_(job, options.tests) {
+FunctionalThread::FunctionalThread(RenderJob& job, const FunctionalOptions& options)
+    : job_(job), options_(options), contexts_(job, options.tests) {
     hand_over_joined();
     thread_ = std::thread([this] { run(); });
 }
 
-DrawingThread::~DrawingThread() {
+FunctionalThread::~FunctionalThread() {
     {
         const std::lock_guard<std::mutex> lock(mutex_);
         stop_ = true;
@@ -45,9 +46,9 @@ DrawingThread::~DrawingThread() {
 // The simulation's side: it reads what is published, and says what it has taken and what it waits
 // for.
 
-// The thread stands still while the list of tiles changes. All that have retired have been closed
-// when it has heard of them.
-void DrawingThread::hand_over_joined() {
+// Takes over the tiles that have joined the job, and drops those that have retired: receive() has
+// closed these. The lock keeps the thread still, because both sides read the list of tiles.
+void FunctionalThread::hand_over_joined() {
     {
         const std::lock_guard<TurnMutex> lock(*job_.changes);
         receive();
@@ -64,46 +65,46 @@ void DrawingThread::hand_over_joined() {
     wanted_.notify_one();
 }
 
-PixelRange DrawingThread::rows(TileNumber number, std::uint32_t place) {
+PixelRange FunctionalThread::rows(TileNumber number, std::uint32_t place) {
     if (number >= slots_end()) {
         hand_over_joined();
     }
-    return sheet(number, place).splats[place % Sheet::kSplats].rows;
+    return batch(number, place).splats[place % RowBatch::kSplats].rows;
 }
 
-void DrawingThread::take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
-                         DrawnRow* drawn) {
-    Sheet& from = sheet(number, place);
-    const Sheet::Splat& splat = from.splats[place % Sheet::kSplats];
-    // Another processor has written the rows, and what comes next lies behind them.
-    if (!from.drawn.empty()) {
-        const DrawnRow* const behind = from.drawn.data() + splat.drawn + splat.rows.size();
+void FunctionalThread::take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
+                            RowOutcome* outcomes) {
+    RowBatch& from = batch(number, place);
+    const RowBatch::Splat& splat = from.splats[place % RowBatch::kSplats];
+    // Another processor has written these rows, and the next ones lie behind them.
+    if (!from.outcomes.empty()) {
+        const RowOutcome* const behind = from.outcomes.data() + splat.first + splat.rows.size();
         __builtin_prefetch(behind);
         __builtin_prefetch(behind + kPrefetchedRows);
     }
-    from.copy(place, own, step, drawn);
-    for (int row = own.first; row <= own.last; row += step, ++drawn) {
-        count(*drawn);
+    from.copy(place, own, step, outcomes);
+    for (int row = own.first; row <= own.last; row += step, ++outcomes) {
+        count(*outcomes);
     }
     if (--from.takes == 0) {
-        tile(number)->sheets[place / Sheet::kSplats] = nullptr;
+        tile(number)->batches[place / RowBatch::kSplats] = nullptr;
         asked_[number % kAsked].tile = kNoTile;
         const std::lock_guard<std::mutex> lock(mutex_);
-        taken_sheets_.push_back(&from);
+        taken_batches_.push_back(&from);
         wake_if_useful();
     }
 }
 
-void DrawingThread::read_row(TileNumber number, int row, int count, PixelValue* pixels) {
+void FunctionalThread::read_row(TileNumber number, int row, int count, PixelValue* pixels) {
     await(number, kWholeTile, [this, number] {
-        const Tile* drawn = tile(number);
-        return drawn != nullptr && drawn->final.load();
+        const Tile* opened = tile(number);
+        return opened != nullptr && opened->final.load();
     });
-    const Tile& drawn = *tile(number);
-    std::copy_n(drawn.pixels.begin() + std::ptrdiff_t{row} * drawn.job.width, count, pixels);
+    const Tile& finished = *tile(number);
+    std::copy_n(finished.pixels.begin() + std::ptrdiff_t{row} * finished.job.width, count, pixels);
 }
 
-void DrawingThread::clear_row(TileNumber number, int /*row*/) {
+void FunctionalThread::clear_row(TileNumber number, int /*row*/) {
     if (++tile(number)->cleared != job_.tile_size) {
         return;
     }
@@ -112,33 +113,33 @@ void DrawingThread::clear_row(TileNumber number, int /*row*/) {
         cleared_tiles_.push_back(number);
         wake_if_useful();
     }
-    if (slots_end() < job_.tiles.size()) { // another frame is there to be drawn ahead
+    if (slots_end() < job_.tiles.size()) { // another frame has come, which can be rasterised ahead
         hand_over_joined();
     }
 }
 
-DrawingThread::Sheet& DrawingThread::sheet(TileNumber number, std::uint32_t place) {
-    const std::uint32_t index = place / Sheet::kSplats;
+RowBatch& FunctionalThread::batch(TileNumber number, std::uint32_t place) {
+    const std::uint32_t index = place / RowBatch::kSplats;
     Asked& asked = asked_[number % kAsked];
     if (asked.tile == number && asked.index == index) {
-        return *asked.sheet;
+        return *asked.batch;
     }
     const Slot& slot = this->slot(number);
     await(number, index, [&slot, index] {
-        const Tile* drawn = slot.open.load();
-        return drawn != nullptr && drawn->ready.load() > index;
+        const Tile* opened = slot.open.load();
+        return opened != nullptr && opened->ready.load() > index;
     });
-    asked = {number, index, tile(number)->sheets[index]};
-    return *asked.sheet;
+    asked = {number, index, tile(number)->batches[index]};
+    return *asked.batch;
 }
 
 // A demand is taken back when it is met, because the tile may then be closed at any time.
 template <class Ready>
-void DrawingThread::await(TileNumber number, std::uint32_t sheet, const Ready& ready) {
+void FunctionalThread::await(TileNumber number, std::uint32_t batch, const Ready& ready) {
     if (ready()) {
         return;
     }
-    demand_ = demand_for(number, sheet);
+    demand_ = demand_for(number, batch);
     if (thread_sleeps_) {
         const std::lock_guard<std::mutex> lock(mutex_);
         wanted_.notify_one();
@@ -161,19 +162,19 @@ void DrawingThread::await(TileNumber number, std::uint32_t sheet, const Ready& r
     demand_ = kNoDemand;
 }
 
-// With the mutex.
-void DrawingThread::wake_if_useful() {
+// The caller holds the mutex.
+void FunctionalThread::wake_if_useful() {
     if (thread_sleeps_ &&
-        (taken_sheets_.size() >= kWakingSheets || cleared_tiles_.size() >= kWakingTiles)) {
+        (taken_batches_.size() >= kWakingBatches || cleared_tiles_.size() >= kWakingTiles)) {
         wanted_.notify_one();
     }
 }
 
 // The thread's side.
 
-void DrawingThread::run() {
+void FunctionalThread::run() {
     try {
-        for (Round round = Round::Drew; round != Round::Stops; round = draw()) {
+        for (Round round = Round::Worked; round != Round::Stops; round = work()) {
             if (round == Round::Idle) {
                 rest();
             }
@@ -185,57 +186,57 @@ void DrawingThread::run() {
     }
 }
 
-// Nothing of the job that it looks at moves meanwhile.
-DrawingThread::Round DrawingThread::draw() {
+// One step of the thread. The lock keeps the job's tiles and frames in place meanwhile.
+FunctionalThread::Round FunctionalThread::work() {
     const std::lock_guard<TurnMutex> lock(*job_.changes);
     if (!receive()) {
         return Round::Stops;
     }
-    return serve_demand() || draw_ahead() ? Round::Drew : Round::Idle;
+    return serve_demand() || run_ahead() ? Round::Worked : Round::Idle;
 }
 
-// What the simulation has given back. False at the end.
-bool DrawingThread::receive() {
+// Takes back the batches and tiles that the simulation no longer needs. False: the thread stops.
+bool FunctionalThread::receive() {
     {
         const std::lock_guard<std::mutex> lock(mutex_);
-        received_sheets_.swap(taken_sheets_);
+        received_batches_.swap(taken_batches_);
         received_tiles_.swap(cleared_tiles_);
         joined_ = false;
         if (stop_) {
             return false;
         }
     }
-    for (Sheet* sheet : received_sheets_) {
-        recycle(*sheet);
+    for (RowBatch* batch : received_batches_) {
+        recycle(*batch);
     }
     for (const TileNumber number : received_tiles_) {
         close(number);
     }
-    received_sheets_.clear();
+    received_batches_.clear();
     received_tiles_.clear();
     return true;
 }
 
-// One sheet of what the simulation waits for. False if it waits for nothing, or is about to see
-// that it need not.
-bool DrawingThread::serve_demand() {
+// Rasterises one batch of the tile that the simulation waits for. False if the simulation waits for
+// nothing, or if what it waits for is there and it is about to see that.
+bool FunctionalThread::serve_demand() {
     const std::uint64_t demand = demand_;
     if (demand == kNoDemand || demand == met_) {
         return false;
     }
     const auto number = static_cast<TileNumber>(demand >> 32U);
     Tile& tile = open(number);
-    const auto sheet = static_cast<std::uint32_t>(demand);
-    const bool met = sheet == kWholeTile ? tile.final.load() : tile.ready.load() > sheet;
+    const auto batch = static_cast<std::uint32_t>(demand);
+    const bool met = batch == kWholeTile ? tile.final.load() : tile.ready.load() > batch;
     if (met) {
         met_ = demand;
     } else {
-        draw_sheet(tile);
+        rasterise_batch(tile);
     }
     return !met;
 }
 
-bool DrawingThread::draw_ahead() {
+bool FunctionalThread::run_ahead() {
     if (bytes_ >= kMostBytes || open_tiles_ >= kMostTiles) {
         return false;
     }
@@ -244,26 +245,26 @@ bool DrawingThread::draw_ahead() {
             continue;
         }
         Tile& tile = open(next_);
-        if (!tile.listed() && tile.sheets_after_end < Sheet::kSheetsAfterEnd) {
-            draw_sheet(tile);
+        if (!tile.listed() && tile.batches_after_end < RowBatch::kBatchesAfterEnd) {
+            rasterise_batch(tile);
             return true;
         }
     }
     return false;
 }
 
-void DrawingThread::rest() {
+void FunctionalThread::rest() {
     std::unique_lock<std::mutex> lock(mutex_);
     thread_sleeps_ = true;
     wanted_.wait(lock, [this] {
         return stop_ || (demand_ != kNoDemand && demand_ != met_) ||
-               taken_sheets_.size() >= kWakingSheets || cleared_tiles_.size() >= kWakingTiles ||
+               taken_batches_.size() >= kWakingBatches || cleared_tiles_.size() >= kWakingTiles ||
                joined_;
     });
     thread_sleeps_ = false;
 }
 
-DrawingThread::Tile& DrawingThread::open(TileNumber number) {
+FunctionalThread::Tile& FunctionalThread::open(TileNumber number) {
     Slot& slot = this->slot(number);
     if (Tile* tile = slot.open.load()) {
         return *tile;
@@ -274,10 +275,10 @@ DrawingThread::Tile& DrawingThread::open(TileNumber number) {
     Tile& tile = *free_tiles_.back();
     free_tiles_.pop_back();
     tile.job = slot.job;
-    tile.canvas = canvases_.open();
+    tile.context = contexts_.open();
     tile.live = tile.job.pixels();
-    tile.sheets_after_end = 0;
-    tile.sheets.assign(Sheet::sheets_of(tile.job), nullptr);
+    tile.batches_after_end = 0;
+    tile.batches.assign(RowBatch::batches_of(tile.job), nullptr);
     tile.ready = 0;
     tile.final = false;
     tile.cleared = 0;
@@ -286,68 +287,69 @@ DrawingThread::Tile& DrawingThread::open(TileNumber number) {
     return tile;
 }
 
-void DrawingThread::close(TileNumber number) {
+void FunctionalThread::close(TileNumber number) {
     Slot& slot = this->slot(number);
     Tile& tile = *slot.open.exchange(nullptr);
     slot.passed = true;
-    for (Sheet* sheet : tile.sheets) {
-        if (sheet != nullptr) {
-            recycle(*sheet);
+    for (RowBatch* batch : tile.batches) {
+        if (batch != nullptr) {
+            recycle(*batch);
         }
     }
     for (int row = 0; row < job_.tile_size; ++row) {
-        canvases_.clear_row(tile.canvas, row);
+        contexts_.clear_row(tile.context, row);
     }
-    canvases_.close(tile.canvas);
+    contexts_.close(tile.context);
     bytes_ -= tile.pixel_bytes();
     tile.pixels.clear();
     free_tiles_.push_back(&tile);
     --open_tiles_;
 }
 
-void DrawingThread::draw_sheet(Tile& tile) {
+void FunctionalThread::rasterise_batch(Tile& tile) {
     const std::uint32_t index = tile.ready;
-    Sheet& sheet = blank_sheet();
-    sheet.draw(job_, tile.job, index, options_, canvases_, tile.canvas);
-    tile.live -= sheet.ended_pixels();
-    tile.sheets_after_end += tile.live == 0 ? 1 : 0;
-    bytes_ += sheet.bytes();
-    tile.sheets[index] = &sheet;
+    RowBatch& batch = empty_batch();
+    batch.rasterise(job_, tile.job, index, options_, contexts_, tile.context);
+    tile.live -= batch.ended_pixels();
+    tile.batches_after_end += tile.live == 0 ? 1 : 0;
+    bytes_ += batch.bytes();
+    tile.batches[index] = &batch;
     publish(tile.ready, index + 1);
     if (!tile.final && (tile.live == 0 || tile.listed())) {
         fix_pixels(tile);
     }
 }
 
-void DrawingThread::fix_pixels(Tile& tile) {
+void FunctionalThread::fix_pixels(Tile& tile) {
     const JobTile& job = tile.job;
     tile.pixels.resize(std::size_t{1} * job.width * job.height);
     for (int row = 0; row < job.height; ++row) {
-        canvases_.read_row(tile.canvas, row, job.width,
+        contexts_.read_row(tile.context, row, job.width,
                            &tile.pixels[std::size_t{1} * row * job.width]);
     }
     bytes_ += tile.pixel_bytes();
     publish(tile.final, true);
 }
 
-DrawingThread::Sheet& DrawingThread::blank_sheet() {
-    if (free_sheets_.empty()) {
-        free_sheets_.push_back(all_sheets_.emplace_back(std::make_unique<Sheet>()).get());
+RowBatch& FunctionalThread::empty_batch() {
+    if (free_batches_.empty()) {
+        free_batches_.push_back(all_batches_.emplace_back(std::make_unique<RowBatch>()).get());
     }
-    Sheet& sheet = *free_sheets_.back();
-    free_sheets_.pop_back();
-    return sheet;
+    RowBatch& batch = *free_batches_.back();
+    free_batches_.pop_back();
+    return batch;
 }
 
-void DrawingThread::recycle(Sheet& sheet) {
-    bytes_ -= sheet.bytes();
-    sheet.drawn.clear();
-    free_sheets_.push_back(&sheet);
+void FunctionalThread::recycle(RowBatch& batch) {
+    bytes_ -= batch.bytes();
+    batch.outcomes.clear();
+    free_batches_.push_back(&batch);
 }
 
-// Either the simulation sees the value before it goes to sleep, or this sees that it sleeps.
+// No wake-up is lost: either the simulation sees the value before it goes to sleep, or the thread
+// sees here that the simulation sleeps.
 template <class Value>
-void DrawingThread::publish(std::atomic<Value>& place, Value value) {
+void FunctionalThread::publish(std::atomic<Value>& place, Value value) {
     place = value;
     if (simulation_sleeps_) {
         const std::lock_guard<std::mutex> lock(mutex_);

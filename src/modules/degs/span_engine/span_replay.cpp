@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/degs/span_engine/drawn_spans.hpp"
+#include "modules/degs/span_engine/span_replay.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -21,7 +21,7 @@ std::size_t power_of_two_from(std::size_t least) {
 
 } // namespace
 
-DrawnSpans::DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows,
+SpanReplay::SpanReplay(Process& unit, Process& bank, DatedFifo<RowItem>& rows,
                        DatedFifo<SpanItem>& ring, const SpanStage::Config& config,
                        SpanStage::Stats& stats, TileEnd& tiles)
     : FifoBase(ring.forward_latency(), ring.release_latency()), unit_(unit), ring_(ring),
@@ -46,7 +46,7 @@ DrawnSpans::DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows,
 
 // The lane is full, or its next place was read later than the writer's date. The host adds places
 // as they are needed.
-void DrawnSpans::make_room(Process& writer) {
+void SpanReplay::make_room(Process& writer) {
     if (span_ < lane_.depth()) {
         add_places();
         return;
@@ -60,8 +60,9 @@ void DrawnSpans::make_room(Process& writer) {
     writer.advance_to(reads_[(put_ - span_) & reads_mask_], lane_counts_.full_cycles);
 }
 
-// The item that has left a place last is that of the place itself, or the one before it there.
-void DrawnSpans::add_places() {
+// A place of the lane keeps the date at which an item left it last. That item is the one with the
+// place's number, or the one that lay there before it.
+void SpanReplay::add_places() {
     std::vector<Cycle> more(2 * reads_.size());
     const std::size_t mask = more.size() - 1;
     const std::size_t unread = put_ - lane_.items();
@@ -73,7 +74,7 @@ void DrawnSpans::add_places() {
     span_ = std::min(reads_.size(), lane_.depth());
 }
 
-void DrawnSpans::add_rows() {
+void SpanReplay::add_rows() {
     std::vector<Row> more(2 * rows_.size());
     std::vector<Cycle> entered(more.size());
     const std::size_t mask = more.size() - 1;
@@ -87,21 +88,21 @@ void DrawnSpans::add_rows() {
     rows_mask_ = mask;
 }
 
-void DrawnSpans::put_end(Process& writer, TileNumber tile) {
+void SpanReplay::put_end(Process& writer, TileNumber tile) {
     Row& row = next_row();
     row.tile = tile;
     row.length = kEnd;
     enter(writer.local());
 }
 
-void DrawnSpans::tell_unit() {
+void SpanReplay::tell_unit() {
     if (turns_->waits_for(*this)) {
         turns_->pump();
     }
 }
 
-void DrawnSpans::pump() {
-    if (turns_ != nullptr) { // it takes the rows, once somebody needs what follows
+void SpanReplay::pump() {
+    if (turns_ != nullptr) { // SpanTurns takes the rows, once somebody needs what follows
         turns_->has_room();
         if (lane_.full()) {
             turns_->pump();
@@ -137,7 +138,7 @@ void DrawnSpans::pump() {
 
 // The end of a tile, a row that misses every pixel of it, which costs its cycles and goes nowhere,
 // or one that is reported.
-void DrawnSpans::solve_other(std::size_t number, Cycle now) {
+void SpanReplay::solve_other(std::size_t number, Cycle now) {
     unit_.advance_to(now);
     const Row& row = rows_[number & rows_mask_];
     if (!row.end()) {
@@ -162,7 +163,7 @@ void DrawnSpans::solve_other(std::size_t number, Cycle now) {
     }
 }
 
-void DrawnSpans::deliver_end(std::size_t number, Cycle now) {
+void SpanReplay::deliver_end(std::size_t number, Cycle now) {
     const Cycle written = std::max(now, cells_[(made_ - depth_) & mask_].read + release_latency_);
     counts_.full_cycles += written - now;
     unit_.advance_to(written);
