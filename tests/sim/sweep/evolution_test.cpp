@@ -170,7 +170,9 @@ TEST(Evolution, FindsTheFrontOfAllDesigns) {
                                         "--limits", "area_mm2<=3.7,worst(latency_ms)<=2*baseline"};
     std::vector<std::string> few = aims;
     few.insert(few.end(), kHalf.begin(), kHalf.end());
-    const nlohmann::json everything = explored(file, folder / "all", aims);
+    std::vector<std::string> all = aims;
+    all.insert(all.end(), {"--budget", "24"}); // as many as there are
+    const nlohmann::json everything = explored(file, folder / "all", all);
     const nlohmann::json found = explored(file, folder / "few", few);
     const Goals worst{std::log(4.0), std::log(0.02), std::log(1e5)};
     EXPECT_GE(hypervolume(costs_in(found), worst), 0.99 * hypervolume(costs_in(everything), worst));
@@ -306,6 +308,11 @@ TEST(LongEvolution, SearchesAMillionDesigns) {
     EXPECT_EQ(estimated["search"]["simulated"], 0);
     EXPECT_FALSE(estimated.contains("estimates"));
     EXPECT_EQ(estimated["results"]["designs"].size(), estimated["search"]["estimated"]);
+    const nlohmann::json drawn =
+        explored(file, folder / "e",
+                 {"--array-only", "--budget", "8", "--population", "16", "--generations", "2"});
+    EXPECT_EQ(drawn["search"]["estimated"], 0);
+    EXPECT_EQ(drawn["results"]["designs"].size(), 8U);
 }
 
 /// A little worse than all designs.
