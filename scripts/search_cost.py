@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compares `degs explore --search evolution` with simulating every design of a study.
+"""Compares `degs explore` with simulating every design of a study.
 
     search_cost.py [FOLDER] [--study beyond-64]
 
@@ -36,7 +36,7 @@ def explore(study, folder, *options):
     subprocess.run([PROGRAM, "explore", STUDIES / f"{study}.yaml", "--goals", GOALS, "--limits", LIMITS[study], *VIEWS,
                     "--out", folder, *options], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     found = json.loads((folder / "explore.json").read_text())
-    designs = [design for design in found["rungs"][-1]["designs"] if design["within"] == "yes"]
+    designs = [design for design in found["results"]["designs"] if design["within"] == "yes"]
     return found, [tuple(design[goal] for goal in found["goals"]) for design in designs]
 
 
@@ -102,22 +102,20 @@ def main():
     parser.add_argument("--study", choices=list(LIMITS), default="beyond-64")
     options = parser.parse_args()
     folder, study = options.folder / options.study, options.study
-    everything, all_points = explore(study, folder / "all", "--rungs", "1")
+    everything, all_points = explore(study, folder / "all", "--budget", "100000")
     best = set(front_of(all_points))
     cycles = everything["search"]["simulated_cycles"]
     print("| search | estimated | simulated | of the cycles | of the hypervolume | designs of the front |")
     print("|---|--:|--:|--:|--:|--:|")
-    designs = {design["name"]: design for design in everything["rungs"][-1]["designs"]}
+    designs = {design["name"]: design for design in everything["results"]["designs"]}
     baseline = designs[study.replace("beyond", "degs-x")]
     chosen_rows(all_points, all_points.index(tuple(baseline[goal] for goal in everything["goals"])), best)
-    halved, points = explore(study, folder / "halving")
-    row("halving", halved, points, all_points, best, cycles)
-    whole, points = explore(study, folder / "whole", "--search", "evolution", "--budget", str(BUDGET))
-    row("evolution, all estimated", whole, points, all_points, best, cycles)
+    whole, points = explore(study, folder / "whole", "--budget", str(BUDGET))
+    row("all estimated", whole, points, all_points, best, cycles)
     for seed in SEEDS:
-        bred, points = explore(study, folder / f"seed-{seed}", "--search", "evolution", "--budget", str(BUDGET),
+        bred, points = explore(study, folder / f"seed-{seed}", "--budget", str(BUDGET),
                                "--population", "8", "--generations", "3", "--seed", str(seed))
-        row(f"evolution, seed {seed}", bred, points, all_points, best, cycles)
+        row(f"seed {seed}", bred, points, all_points, best, cycles)
 
 
 def row(name, found, points, all_points, best, cycles):

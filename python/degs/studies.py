@@ -115,14 +115,15 @@ class Study:
         """Searches the study for the designs that none beats: the rows of front.csv (docs/explore.md#files).
 
         `goals` and `limits` are texts such as "area_mm2" and "latency_ms<=2"; `on_front` and `baseline` are booleans.
-        attrs: `units`, `goals`, `better` for each goal, `correlations` between the sizes of images, `skipped`."""
+        attrs: `units`, `goals`, `better` for each goal, `correlations` of estimates and simulations (None
+        where nothing was estimated), `skipped`."""
         with self._written() as file, folder_of(out) as folder:
             words = options_of(goals=joined(goals), limits=joined(limits), jobs=jobs or processors(), out=folder)
             call(["explore", file, *study_options(options), *words], progress)
             said = json.loads((folder / "explore.json").read_text(encoding="utf-8"))
             frame = table(folder / "front.csv", {
                 "goals": said["goals"], "better": said["better"], "skipped": said["skipped"],
-                "correlations": [rung.get("rank_correlation_with_next") for rung in said["rungs"]]})
+                "correlations": said.get("estimates", {}).get("rank_correlation")})
             for name in ("on_front", "baseline"):
                 frame[name] = frame[name].astype(bool)
             return frame

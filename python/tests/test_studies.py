@@ -96,12 +96,14 @@ def test_studies_of_files_and_mappings(tmp_path, monkeypatch):
 def test_a_search_keeps_limits(tmp_path):
     study = degs.Study({"designs": "degs-64", "axes": {"span.count": [4, 8, 16], "slicing.count": [1, 2]},
                         "scenes": SCENE, "cameras": 2, "width": 64, "reference": False})
-    front = study.explore(["area_mm2", "latency_ms"], "area_mm2<=2.7", rungs=1, jobs=2)
+    front = study.explore(["area_mm2", "latency_ms"], "area_mm2<=2.7", jobs=2)
     best = front[front["on_front"]]
     assert len(best) and (best["area_mm2"] <= 2.7).all() and front["baseline"].sum() == 1
     assert (front[front["area_mm2"] > 2.7]["within"] != "yes").all()
     assert front.attrs["goals"] == ["area_mm2", "latency_ms"] and front.attrs["better"] == ["smaller", "smaller"]
-    assert front.attrs["units"]["latency_ms"] == "ms"
+    assert front.attrs["units"]["latency_ms"] == "ms" and front.attrs["correlations"] is None
+    few = study.explore(["area_mm2", "latency_ms"], budget=4, jobs=2)
+    assert len(few) == 4 and few.attrs["correlations"]["area_mm2"] > 0.9
 
 
 @pytest.mark.parametrize("study, sentence", [

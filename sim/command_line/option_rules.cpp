@@ -69,13 +69,7 @@ constexpr Row kRows[] = {
      "reads results that are in the folder already"},
     {"sweep", "--top", kNeeds, "--sort", "counts the designs of the table"},
     {"sweep", "--tasks --sbatch", kNeeds, "--slurm", "is for a job array"},
-    {"explore", "--rungs --share --least", kNeeds, "--search=halving",
-     "is an option of the search by halving"},
-    {"explore", "--budget --population --generations", kNeeds, "--search=evolution",
-     "is an option of the search by evolution"},
     {"explore", "--budget", kNotWith, "--fidelity=analytic", "counts simulations"},
-    {"explore", "--array-only", kNotWith, "--search=evolution",
-     "runs the arrays alone, and the evolution estimates whole accelerators"},
     {"explore", "--patience", kNeeds, "--shard", "is a wait for the other parts"},
     // Platforms and memories.
     {"memory", "--trace", kNotWith,

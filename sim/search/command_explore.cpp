@@ -4,14 +4,13 @@
 
 #include "base/visible_text.hpp"
 #include "degs/error.hpp"
-#include "sim/command_line/combinations.hpp"
-#include "sim/search/evolution.hpp"
-#include "sim/search/halving.hpp"
+#include "sim/search/search.hpp"
 #include "sim/search/search_output.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/study/study_options.hpp"
+#include "sim/sweep/sweep_results.hpp"
 #include "sim/text/standard_output.hpp"
 
 namespace degs::sim {
@@ -19,8 +18,6 @@ namespace {
 
 struct ExploreOptions {
     StudyOptions study;
-    std::string method = "halving";
-    HalvingOptions halving;
     EvolutionOptions evolution;
     std::string goals, limits; // empty: those of the study
     int jobs = 1;
@@ -40,89 +37,55 @@ Study searched_study(const ExploreOptions& options) {
     return study;
 }
 
-void run_search(const ExploreOptions& options, const StudyPlan& plan, Searcher& searcher) {
+void run_search(const ExploreOptions& options, const StudyPlan& plan, Evolution& evolution) {
     std::optional<Failure> failure;
     SearchPart part = options.shard ? SearchPart(parse_shard(*options.shard), 60 * options.patience)
                                     : SearchPart();
-    const Search found = search(plan, searcher, part, options.out, failure);
-    if (found.complete && !part.writes()) {
+    const std::optional<Search> found = search(plan, evolution, part, options.out, failure);
+    if (found && !part.writes()) {
         print(part.name() + " has ended; part 1 writes the results\n");
-    } else if (found.complete) {
+    } else if (found) {
         const OutputFolder folder(options.out, search_files());
-        write_search(plan, found, folder);
-        print(search_text(plan, found) +
+        write_search(plan, *found, folder);
+        print(search_text(plan, *found) +
               "\nall numbers, plots and the page: " + visible(folder.path("")) + "\n");
-        print_warnings(found.rungs.back().warnings);
+        print_warnings(found->results.warnings);
     }
     if (failure) {
         throw FailureError(*failure);
     }
 }
 
-void run_halving(const ExploreOptions& options, const Study& study) {
-    StudyPlan plan = plan_study(study);
-    plan.request.jobs = options.jobs;
-    check_aims(plan);
-    Halving halving(plan, options.halving);
-    run_search(options, plan, halving);
+/// Throws InputError if estimates are asked for of a design that has none.
+void check_designs(const StudyPlan& plan, std::vector<NamedConfig> designs) {
+    CompareRequest request = plan.request;
+    request.configs = std::move(designs);
+    check_estimates(request);
 }
 
-/// Throws InputError for what has no estimates, and for a study whose designs are no space.
-void check_space(const Study& study, std::vector<NamedConfig> designs) {
-    if (study.one_at_a_time) {
-        throw InputError(
-            "--search evolution combines values of axes, but the study varies one at a "
-            "time; --search halving can search it.");
-    }
-    refuse_combinations(
-        "degs explore", rules_of("explore", [](const std::string&) { return true; }),
-        [&study](const std::string& option) -> OptionState {
-            return option == "--search" ? OptionState{true, "evolution"}
-                   : option == "--array-only"
-                       ? OptionState{study.array_only, "", "or 'array_only' of a study"}
-                       : OptionState();
-        });
-    CompareRequest estimates;
-    estimates.configs = std::move(designs);
-    estimates.analytic = true;
-    check_estimates(estimates);
-}
-
-void run_evolution(const ExploreOptions& options, const Study& study) {
+void explore(const ExploreOptions& options) {
+    const Study study = searched_study(options);
     StudyPlan plan = plan_views(study);
     plan.request.jobs = options.jobs;
     DesignSpace space(study, plan);
-    check_space(study, space.designs());
+    check_designs(plan, space.designs());
     space.add_baseline();
     for (const std::string& name : designs_in(plan.aims)) {
         space.add_design(name);
     }
     check_aims(plan);
-    EvolutionOptions evolution = options.evolution;
-    evolution.seed = options.study.seed;
-    Evolution searcher(space, plan, evolution);
-    run_search(options, plan, searcher);
-}
-
-void add_halving_options(CLI::App& command, HalvingOptions& options) {
-    command
-        .add_option("--rungs", options.rungs,
-                    "sizes of images: the first rung has 1/2^(N-1) of their sides, the last the "
-                    "study's own")
-        ->check(CLI::Range(1, 6))
-        ->capture_default_str();
-    command.add_option("--share", options.share, "one of so many designs goes on to the next rung")
-        ->check(CLI::Range(1, 100))
-        ->capture_default_str();
-    command.add_option("--least", options.least, "designs that go on at least")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
+    EvolutionOptions wanted = options.evolution;
+    wanted.seed = options.study.seed;
+    Evolution evolution(space, plan, wanted);
+    run_search(options, plan, evolution);
 }
 
 void add_evolution_options(CLI::App& command, EvolutionOptions& options) {
     command
-        .add_option("--budget", options.budget,
-                    "designs that the evolution simulates at most, with the baseline")
+        .add_option(
+            "--budget", options.budget,
+            "designs that are simulated at most, with the baseline; a space without more is "
+            "simulated whole")
         ->check(CLI::Range(2, 100000))
         ->capture_default_str();
     command.add_option("--population", options.population, "designs of a generation of estimates")
@@ -170,29 +133,15 @@ void add_explore_command(CLI::App& program) {
                      "what designs must hold, in place of the limits of the study: "
                      "'area_mm2<=2.5, latency_ms<=1.02*baseline'")
         ->type_name("LIMIT,...");
-    command
-        ->add_option("--search", options->method,
-                     "halving simulates all designs on small images and the better ones on larger "
-                     "images; evolution estimates many designs and simulates few")
-        ->check(CLI::IsMember({"halving", "evolution"}))
-        ->capture_default_str();
-    add_halving_options(*command, options->halving);
     add_evolution_options(*command, options->evolution);
     command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
-    add_out_option(*command, options->out, "folder for the front, the rungs and their reports");
+    add_out_option(*command, options->out, "folder for the front, the estimates and the reports");
     add_shard_options(*command, *options);
     command->get_option("--seed")->description(
-        "of the draw of tiles with --within, and of --search evolution");
-    command->callback([options] {
-        const Study study = searched_study(*options);
-        if (options->method == "evolution") {
-            run_evolution(*options, study);
-        } else {
-            run_halving(*options, study);
-        }
-    });
+        "of the draw of tiles with --within, and of the designs of a large space");
+    command->callback([options] { explore(*options); });
 }
 
 } // namespace degs::sim

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/grouped_number.hpp"
+#include "config/config_words.hpp"
 #include "degs/error.hpp"
 #include "sim/analytic/analytic_run.hpp"
 
@@ -15,8 +16,9 @@ namespace {
 
 constexpr std::size_t kLeastOfRound = 2; ///< designs
 constexpr std::size_t kMostRounds = 8;   ///< of about the same size
+constexpr std::size_t kShareUnlike = 2;  ///< of the budget, for a first round without estimates
 constexpr std::size_t kTries = 50;       ///< proposals for each place of a generation
-constexpr const char* kEstimates = "rung-1";
+constexpr const char* kEstimates = "estimates";
 
 bool has_estimate(const Aim& aim) {
     const std::vector<Measure> measures = measures_in({{aim}, {}});
@@ -24,31 +26,48 @@ bool has_estimate(const Aim& aim) {
                        [](Measure measure) { return is_estimated(measure); });
 }
 
-/// The next place; false after the last one.
-bool advance(Genes& place, const std::vector<Gene>& genes) {
-    for (std::size_t g = place.size(); g-- > 0;) {
-        if (++place[g] < genes[g].positions) {
-            return true;
-        }
-        place[g] = 0;
+/// Why a search cannot begin with estimates; empty if it can.
+std::string lack_of_estimates(const DesignSpace& space, const StudyPlan& plan) {
+    if (plan.request.array_only) {
+        return "the arrays run alone, and estimates are of whole accelerators";
     }
-    return false;
+    const std::vector<Aim>& goals = plan.aims.goals;
+    if (std::none_of(goals.begin(), goals.end(), has_estimate)) {
+        return "none of the goals has an estimate";
+    }
+    for (const NamedConfig& design : space.designs()) {
+        if (design.config.accelerator().analytic() == nullptr) {
+            return config_words::quote(design.name) + " has no analytic model";
+        }
+    }
+    return "";
+}
+
+/// What is known of a design that nobody has estimated: what does not depend on a frame.
+DesignVerdict without_frame(const RunConfig& design, const Aims& aims) {
+    const cost::BillOfMaterials bill = design.accelerator().bill();
+    Measures measures;
+    measures[Measure::AreaMm2] = bill.area_mm2();
+    measures[Measure::SramBytes] = static_cast<double>(bill.sram_bytes());
+    DesignVerdict verdict;
+    for (const Aim& goal : aims.goals) {
+        verdict.goals.push_back(goal.expression.value(measures));
+    }
+    for (const Limit& limit : aims.limits) {
+        verdict.limits.push_back({limit.aim.expression.value(measures), {}});
+    }
+    return verdict;
 }
 
 } // namespace
 
 Evolution::Evolution(DesignSpace& space, const StudyPlan& plan, const EvolutionOptions& options)
     : space_(space), plan_(plan), options_(options), kept_(kept_variants(plan)),
-      whole_(space.size() <= options.population * options.generations),
+      no_estimates_(lack_of_estimates(space, plan)),
+      whole_(!space.is_product() || space.size() <= options.population * options.generations),
       breeding_(space.genes(), options.population, options.seed) {
     std::sort(kept_.begin(), kept_.end());
     kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
-    const std::vector<Aim>& goals = plan.aims.goals;
-    if (std::none_of(goals.begin(), goals.end(),
-                     [](const Aim& goal) { return has_estimate(goal); })) {
-        throw InputError("None of the goals has an estimate, so --search evolution cannot look for "
-                         "them; --search halving can.");
-    }
     if (options.budget <= kept_.size()) {
         throw InputError("--budget " + std::to_string(options.budget) +
                          " leaves nothing to search, because the designs that others are compared "
@@ -60,14 +79,41 @@ Evolution::Evolution(DesignSpace& space, const StudyPlan& plan, const EvolutionO
     }
 }
 
-Step Evolution::step_of(std::vector<std::size_t> variants, bool estimates) const {
+Step Evolution::step_of(std::vector<std::size_t> variants, PartRuns runs) const {
     variants.insert(variants.end(), kept_.begin(), kept_.end());
     std::sort(variants.begin(), variants.end());
     variants.erase(std::unique(variants.begin(), variants.end()), variants.end());
-    return {std::move(variants), {1, estimates}, estimates ? kEstimates : "", true};
+    const bool beside = runs == PartRuns::Estimates && !plan_.request.analytic;
+    return {std::move(variants), runs, beside ? kEstimates : "", true};
+}
+
+/// A space of which every design is simulated needs no estimates; where there are none, designs are
+/// known by their places and by what does not depend on a frame.
+void Evolution::start() {
+    phase_ = Phase::Breeding;
+    if (whole_) {
+        for (const Genes& place : space_.places()) {
+            add(place);
+        }
+        all_ = !plan_.request.analytic && plan_.variants.size() <= options_.budget;
+    }
+    if (!all_ && no_estimates_.empty()) {
+        return;
+    }
+    if (!whole_) {
+        add_proposals(options_.population * options_.generations);
+    }
+    for (const auto& [variant, place] : asked_) {
+        const RunConfig& design = plan_.request.configs[variant].config;
+        known_.emplace(variant, Known{place, without_frame(design, plan_.aims), {}});
+    }
+    phase_ = Phase::Rounds;
 }
 
 std::optional<Step> Evolution::next() {
+    if (phase_ == Phase::Start) {
+        start();
+    }
     if (phase_ == Phase::Breeding) {
         if (std::optional<Step> step = next_generation()) {
             return step;
@@ -77,14 +123,12 @@ std::optional<Step> Evolution::next() {
         for (const auto& [variant, known] : known_) {
             all.push_back(variant);
         }
-        Step step = step_of(std::move(all), true);
-        step.folder = plan_.request.analytic ? "" : kEstimates;
-        return step;
+        return step_of(std::move(all), PartRuns::Estimates);
     }
     return phase_ == Phase::Rounds ? next_round() : std::nullopt;
 }
 
-bool Evolution::add(const Genes& place, std::vector<std::size_t>& variants) {
+bool Evolution::add(const Genes& place) {
     if (!seen_.insert(place).second) {
         return false;
     }
@@ -98,44 +142,45 @@ bool Evolution::add(const Genes& place, std::vector<std::size_t>& variants) {
         return false;
     }
     asked_[*variant] = place;
-    variants.push_back(*variant);
     return true;
 }
 
-std::optional<Step> Evolution::next_generation() {
-    std::vector<std::size_t> variants;
-    if (whole_) {
-        Genes place(space_.genes().size(), 0);
-        do {
-            add(place, variants);
-        } while (generation_ == 0 && advance(place, space_.genes()));
+void Evolution::add_proposals(std::size_t count) {
+    std::size_t added = 0;
+    for (std::size_t tries = count * kTries; tries > 0 && added < count; --tries) {
+        added += add(breeding_.propose()) ? 1 : 0;
     }
-    for (std::size_t tries = options_.population * kTries;
-         !whole_ && generation_ < options_.generations && tries > 0 &&
-         variants.size() < options_.population;
-         --tries) {
-        add(breeding_.propose(), variants);
+}
+
+std::optional<Step> Evolution::next_generation() {
+    if (!whole_ && generation_ < options_.generations) {
+        add_proposals(options_.population);
     }
     ++generation_;
-    if (variants.empty()) {
+    if (asked_.empty()) {
         return {};
     }
-    Step step = step_of(std::move(variants), true);
+    std::vector<std::size_t> variants;
+    for (const auto& [variant, place] : asked_) {
+        variants.push_back(variant);
+    }
+    Step step = step_of(std::move(variants), PartRuns::Estimates);
     step.results = false; // all estimates get them together
     return step;
 }
 
-void Evolution::take(const Rung& rung) {
+void Evolution::take(const StepResults& results) {
     if (phase_ == Phase::Breeding) {
-        take_estimates(rung);
-        return;
+        take_estimates(results);
+    } else if (phase_ == Phase::Rounds) {
+        take_simulations(results);
+    } else if (plan_.request.analytic) {
+        phase_ = Phase::Over;
+        results_ = results;
+    } else {
+        phase_ = Phase::Rounds;
+        estimates_ = results;
     }
-    if (phase_ == Phase::AllEstimates) {
-        phase_ = plan_.request.analytic ? Phase::Over : Phase::Rounds;
-        rungs_.push_back(rung);
-        return;
-    }
-    take_simulations(rung);
 }
 
 /// In a generation, goals without estimates are the same for all, so that they decide nothing.
@@ -147,9 +192,9 @@ Individual Evolution::individual(const Known& known) const {
     return {known.place, costs_of(goals, plan_.aims.goals), excess_of(known.estimate)};
 }
 
-void Evolution::take_estimates(const Rung& rung) {
+void Evolution::take_estimates(const StepResults& results) {
     std::vector<Individual> children;
-    for (const Candidate& candidate : rung.candidates) {
+    for (const Candidate& candidate : results.candidates) {
         const auto asked = asked_.find(candidate.variant);
         if (asked != asked_.end()) {
             const auto [known, is_new] =
@@ -194,11 +239,49 @@ RoundFacts Evolution::round_facts() const {
 }
 
 void Evolution::believe(std::size_t variant, const Columns& forecast) {
+    if (all_) { // nobody has chosen it
+        return;
+    }
     Belief belief{variant, round_, {}};
     for (std::size_t g = 0; g < plan_.aims.goals.size(); ++g) {
         belief.goals.push_back(forecast[g] ? std::optional(std::exp(*forecast[g])) : std::nullopt);
     }
     beliefs_.push_back(std::move(belief));
+}
+
+/// The first designs where nothing is believed of any.
+std::vector<std::size_t> Evolution::unlike(const RoundFacts& facts, std::size_t count) const {
+    std::vector<Genes> taken;
+    for (const std::size_t variant : kept_) {
+        taken.push_back(known_.at(variant).place);
+    }
+    std::vector<Genes> places;
+    for (const Prospect& prospect : facts.prospects) {
+        places.push_back(known_.at(prospect.variant).place);
+    }
+    std::vector<std::size_t> variants;
+    for (const std::size_t place : most_unlike(space_.genes(), taken, places, count)) {
+        variants.push_back(facts.prospects[place].variant);
+    }
+    return variants;
+}
+
+std::vector<std::size_t> Evolution::choose(const RoundFacts& facts) const {
+    if (round_ == 1 && !estimates_) {
+        return unlike(facts, all_ ? facts.prospects.size() : options_.budget / kShareUnlike);
+    }
+    const std::size_t size =
+        std::max(kLeastOfRound, (options_.budget + kMostRounds - 1) / kMostRounds);
+    const std::size_t count = std::min(size, options_.budget - tried_.size());
+    return choose_round(facts, count);
+}
+
+std::string Evolution::why_over(const RoundFacts& facts) const {
+    const std::string kind = estimates_ ? "estimated " : whole_ ? "" : "drawn ";
+    return all_                               ? "the budget has room for all designs"
+           : tried_.size() == options_.budget ? "the budget is used"
+           : facts.prospects.empty()          ? "all " + kind + "designs were simulated"
+                                     : "no other " + kind + "design is likely to enter the front";
 }
 
 std::optional<Step> Evolution::next_round() {
@@ -210,15 +293,10 @@ std::optional<Step> Evolution::next_round() {
         }
     }
     const RoundFacts facts = round_facts();
-    const std::size_t size =
-        std::max(kLeastOfRound, (options_.budget + kMostRounds - 1) / kMostRounds);
-    const std::vector<std::size_t> chosen =
-        choose_round(facts, std::min(size, options_.budget - tried_.size()));
-    if (chosen.empty()) {
+    const std::vector<std::size_t> chosen = choose(facts);
+    if (chosen.empty() && round_ > 1) { // the first has at least what others are compared with
         phase_ = Phase::Over;
-        end_ = tried_.size() == options_.budget ? "the budget is used"
-               : facts.prospects.empty()        ? "all estimated designs were simulated"
-                                         : "no other estimated design is likely to enter the front";
+        end_ = why_over(facts);
         return {};
     }
     for (const Prospect& prospect : facts.prospects) {
@@ -230,44 +308,46 @@ std::optional<Step> Evolution::next_round() {
     std::vector<std::size_t> variants; // a round has what ran before it, too
     std::set_difference(tried_.begin(), tried_.end(), failed_.begin(), failed_.end(),
                         std::back_inserter(variants));
-    Step step = step_of(std::move(variants), false);
-    step.spent =
-        grouped(known_.size()) + " designs estimated, " + grouped(tried_.size()) + " simulated";
+    Step step = step_of(std::move(variants), PartRuns::AsPlanned);
+    step.spent = estimates_ ? grouped(known_.size()) + " designs estimated, " : "";
+    step.spent += grouped(tried_.size()) + (estimates_ ? " simulated" : " designs simulated");
     return step;
 }
 
-void Evolution::take_simulations(const Rung& rung) {
-    for (const Candidate& candidate : rung.candidates) {
+void Evolution::take_simulations(const StepResults& results) {
+    for (const Candidate& candidate : results.candidates) {
         if (const auto known = known_.find(candidate.variant); known != known_.end()) {
             known->second.found = candidate.verdict;
         }
     }
     for (const std::size_t variant : tried_) {
         const bool ran = std::any_of(
-            rung.candidates.begin(), rung.candidates.end(),
+            results.candidates.begin(), results.candidates.end(),
             [variant](const Candidate& candidate) { return candidate.variant == variant; });
         if (!ran) {
             failed_.insert(variant);
         }
     }
-    failures_.insert(failures_.end(), rung.failed.begin(), rung.failed.end());
+    failures_.insert(failures_.end(), results.failed.begin(), results.failed.end());
     if (std::any_of(kept_.begin(), kept_.end(),
                     [this](std::size_t variant) { return failed_.count(variant) != 0; })) {
         phase_ = Phase::Over;
         end_ = "a design that others are compared with failed";
     }
-    rungs_.resize(1);
-    rungs_.push_back(rung);
-    rungs_.back().failed = failures_;
+    results_ = results;
+    results_.failed = failures_;
 }
 
-Searcher::Facts Evolution::facts() const {
-    return {"evolution",
+Search Evolution::found() const {
+    return {estimates_,
+            results_,
+            beliefs_,
             {{"seed", options_.seed},
              {"budget", options_.budget},
              {"population", options_.population},
              {"generations", options_.generations},
              {"space", space_.size()}},
+            all_ ? "" : no_estimates_,
             end_};
 }
 

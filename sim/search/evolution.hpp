@@ -15,7 +15,7 @@
 #include "sim/search/breeding.hpp"
 #include "sim/search/forecast.hpp"
 #include "sim/search/round_choice.hpp"
-#include "sim/search/searcher.hpp"
+#include "sim/search/search_step.hpp"
 #include "sim/sweep/design_space.hpp"
 
 namespace degs::sim {
@@ -23,51 +23,59 @@ namespace degs::sim {
 struct EvolutionOptions {
     std::size_t budget = 32; ///< designs that are simulated at most, with the baseline
     std::size_t population = 64;
-    std::size_t generations = 32; ///< a space that has not more designs than all is estimated whole
+    std::size_t generations = 32; ///< a space that has not more designs than all is taken whole
     std::uint64_t seed = 1;
 };
 
-class Evolution final : public Searcher {
+class Evolution {
 public:
     /// The space adds to the plan, which has the designs that are compared with, and no other;
-    /// both outlive this object. Throws InputError if the budget does not suffice for these, and if
-    /// no goal has an estimate.
+    /// both outlive this object. Throws InputError if the budget does not suffice for these.
     Evolution(DesignSpace& space, const StudyPlan& plan, const EvolutionOptions& options);
 
-    std::optional<Step> next() override;
-    void take(const Rung& rung) override;
-    const std::vector<Rung>& rungs() const override { return rungs_; }
-    std::vector<Belief> beliefs() const override { return beliefs_; }
-    Facts facts() const override;
+    /// What to run next; empty at the end.
+    std::optional<Step> next();
+    /// What that found, before next() is asked again.
+    void take(const StepResults& results);
+    /// Valid after the end.
+    Search found() const;
 
 private:
-    /// A design that was estimated.
+    /// A design that may be simulated.
     struct Known {
         Genes place;
-        DesignVerdict estimate;
+        DesignVerdict estimate;             ///< may lack values
         std::optional<DesignVerdict> found; ///< by simulation
     };
-    enum class Phase { Breeding, AllEstimates, Rounds, Over };
+    enum class Phase { Start, Breeding, AllEstimates, Rounds, Over };
 
+    void start();
     std::optional<Step> next_generation();
     std::optional<Step> next_round();
+    std::vector<std::size_t> choose(const RoundFacts& facts) const;
+    std::vector<std::size_t> unlike(const RoundFacts& facts, std::size_t count) const;
     RoundFacts round_facts() const;
     /// Records the expected values of a design that is going to be simulated.
     void believe(std::size_t variant, const Columns& forecast);
-    Step step_of(std::vector<std::size_t> variants, bool estimates) const;
-    void take_estimates(const Rung& rung);
-    void take_simulations(const Rung& rung);
-    /// Adds a place to the next generation, unless it is known or cannot be built.
-    bool add(const Genes& place, std::vector<std::size_t>& variants);
+    Step step_of(std::vector<std::size_t> variants, PartRuns runs) const;
+    void take_estimates(const StepResults& results);
+    void take_simulations(const StepResults& results);
+    /// Adds a place to the next generation; false if it is known or cannot be built.
+    bool add(const Genes& place);
+    /// Adds so many proposals, or fewer if hardly any is new.
+    void add_proposals(std::size_t count);
     Individual individual(const Known& known) const;
+    std::string why_over(const RoundFacts& facts) const;
 
     DesignSpace& space_;
     const StudyPlan& plan_;
     EvolutionOptions options_;
     std::vector<std::size_t> kept_; ///< designs that others are compared with
-    bool whole_;                    ///< the space is estimated whole
+    std::string no_estimates_;      ///< why there are none; empty: there are
+    bool whole_;                    ///< every place of the space is looked at
+    bool all_ = false;              ///< and simulated, because the budget has room for that
     Breeding breeding_;
-    Phase phase_ = Phase::Breeding;
+    Phase phase_ = Phase::Start;
     std::size_t generation_ = 0;
     int round_ = 0;
     std::set<Genes> seen_;
@@ -77,7 +85,8 @@ private:
     std::set<std::size_t> failed_;       ///< of them, those whose simulation failed: once is enough
     std::vector<FailedRun> failures_;    ///< in all rounds
     std::vector<Belief> beliefs_;
-    std::vector<Rung> rungs_;
+    std::optional<StepResults> estimates_; ///< of all designs
+    StepResults results_;                  ///< of all rounds, or all estimates if these are wanted
     std::string end_;
 };
 

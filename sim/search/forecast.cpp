@@ -60,27 +60,44 @@ Columns columns_of(const DesignVerdict& verdict) {
     return columns;
 }
 
+double likeness(const std::vector<Gene>& genes, const Genes& a, const Genes& b) {
+    double distance = 0; // from 0 to the number of genes
+    for (std::size_t g = 0; g < genes.size(); ++g) {
+        const bool own = a[g] == DesignSpace::kOwn || b[g] == DesignSpace::kOwn;
+        if (a[g] != b[g]) {
+            const double apart = static_cast<double>(std::max(a[g], b[g]) - std::min(a[g], b[g]));
+            const double most = static_cast<double>(genes[g].positions - 1);
+            distance += genes[g].ordered && !own ? apart / most : 1;
+        }
+    }
+    const double alike = 1 - distance / static_cast<double>(genes.size());
+    return (alike + std::exp(-distance)) / 2;
+}
+
+std::vector<std::size_t> most_unlike(const std::vector<Gene>& genes,
+                                     const std::vector<Genes>& taken,
+                                     const std::vector<Genes>& places, std::size_t count) {
+    std::vector<double> nearest(places.size(), 0);
+    const auto take = [&](const Genes& place) {
+        for (std::size_t p = 0; p < places.size(); ++p) {
+            nearest[p] = std::max(nearest[p], likeness(genes, places[p], place));
+        }
+    };
+    std::for_each(taken.begin(), taken.end(), take);
+    std::vector<std::size_t> chosen;
+    while (chosen.size() < std::min(count, places.size())) {
+        const auto least = std::min_element(nearest.begin(), nearest.end());
+        chosen.push_back(static_cast<std::size_t>(least - nearest.begin()));
+        take(places[chosen.back()]);
+    }
+    return chosen;
+}
+
 Forecast::Forecast(std::vector<Gene> genes, std::size_t columns)
     : genes_(std::move(genes)), processes_(columns) {}
 
 void Forecast::learn(const Genes& place, const Columns& estimated, const Columns& found) {
     lessons_.push_back({place, estimated, found});
-}
-
-/// Other words, groups of keys and designs are far from each other; numbers are the farther, the
-/// more positions lie between them.
-double Forecast::covariance(const Genes& a, const Genes& b) const {
-    double distance = 0; // from 0 to the number of genes
-    for (std::size_t g = 0; g < genes_.size(); ++g) {
-        const bool own = a[g] == DesignSpace::kOwn || b[g] == DesignSpace::kOwn;
-        if (a[g] != b[g]) {
-            const double apart = static_cast<double>(std::max(a[g], b[g]) - std::min(a[g], b[g]));
-            const double most = static_cast<double>(genes_[g].positions - 1);
-            distance += genes_[g].ordered && !own ? apart / most : 1;
-        }
-    }
-    const double alike = 1 - distance / static_cast<double>(genes_.size());
-    return (alike + std::exp(-distance)) / 2;
 }
 
 Forecast::Process Forecast::process_of(std::size_t column) const {
@@ -96,9 +113,9 @@ Forecast::Process Forecast::process_of(std::size_t column) const {
     process.root.resize(n * n);
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < n; ++j) {
-            process.root[i * n + j] =
-                covariance(lessons_[process.lessons[i]].place, lessons_[process.lessons[j]].place) +
-                (i == j ? kRoughness : 0);
+            process.root[i * n + j] = likeness(genes_, lessons_[process.lessons[i]].place,
+                                               lessons_[process.lessons[j]].place) +
+                                      (i == j ? kRoughness : 0);
         }
     }
     take_root(process.root, n);
@@ -125,7 +142,7 @@ Expectation Forecast::at(const Genes& place, const Columns& estimated) const {
         const Process& process = processes_[c];
         std::vector<double> shared;
         for (const std::size_t l : process.lessons) {
-            shared.push_back(covariance(place, lessons_[l].place));
+            shared.push_back(likeness(genes_, place, lessons_[l].place));
         }
         const std::vector<double> part = solved(process.root, shared);
         if (!part.empty()) {

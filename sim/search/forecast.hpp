@@ -24,10 +24,21 @@ struct Expectation {
     std::vector<double> deviations; ///< by column
 };
 
+/// From 0 to 1, how much alike what is found at two places is expected to be: other words, groups
+/// of keys and designs are far from each other; numbers are the farther, the more positions lie
+/// between them. Places that agree in more genes are more alike, both because a value of a gene
+/// acts everywhere alike and because whole designs are alike.
+double likeness(const std::vector<Gene>& genes, const Genes& a, const Genes& b);
+
+/// The positions of at most `count` of the places, each as unlike those before it and those that
+/// are taken as can be.
+std::vector<std::size_t> most_unlike(const std::vector<Gene>& genes,
+                                     const std::vector<Genes>& taken,
+                                     const std::vector<Genes>& places, std::size_t count);
+
 /// Corrects estimates by the ratios of found to estimated values. Each ratio is taken for a
-/// Gaussian process over the space (kriging): designs that agree in more genes have more similar
-/// ratios, both because a value of a gene acts everywhere alike and because whole designs are
-/// alike. What has no estimate at all is taken as estimated 1.
+/// Gaussian process over the space (kriging), whose covariance is the likeness. What has no
+/// estimate at all is taken as estimated 1.
 class Forecast {
 public:
     Forecast(std::vector<Gene> genes, std::size_t columns);
@@ -51,7 +62,6 @@ private:
         std::vector<double> weights;      ///< by lesson
         double mean = 0, variance = 0;
     };
-    double covariance(const Genes& a, const Genes& b) const;
     Process process_of(std::size_t column) const;
 
     std::vector<Gene> genes_;

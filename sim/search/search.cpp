@@ -8,6 +8,7 @@
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
 #include "sim/analytic/analytic_run.hpp"
+#include "sim/sweep/sweep_results.hpp"
 #include "sim/sweep/sweep_session.hpp"
 
 namespace degs::sim {
@@ -32,7 +33,7 @@ void check_value(const std::string& design, const Aim& goal, const std::optional
 /// values; estimates do not have all.
 std::vector<Candidate> candidates_of(const StudyPlan& part, const SweepResults& results,
                                      const Step& step) {
-    const bool strict = !step.change.estimates;
+    const bool strict = step.runs == PartRuns::AsPlanned;
     for (const ComparisonRow& row : results.comparison.rows) {
         for (const Aim& goal : part.aims.goals) {
             const std::optional<double> value = goal.expression.value(row.measures);
@@ -66,13 +67,6 @@ double cycles_of(const Comparison& comparison) {
     return cycles;
 }
 
-/// Whether a goal or limit compares images with the reference.
-bool judges_images(const Aims& aims) {
-    const std::vector<Measure> measures = measures_in(aims);
-    return std::any_of(measures.begin(), measures.end(),
-                       [](Measure measure) { return name_of(measure).rfind("image.", 0) == 0; });
-}
-
 /// The points that failed, each with its sentence.
 std::vector<FailedRun> failed_runs(const StudyPlan& plan, const SweepResults& results) {
     std::vector<FailedRun> runs;
@@ -85,11 +79,9 @@ std::vector<FailedRun> failed_runs(const StudyPlan& plan, const SweepResults& re
 }
 
 /// Runs a step, or the part of it that is `mine`. Empty after Ctrl-C.
-std::optional<Rung> run_step(const StudyPlan& plan, const Step& step, SearchPart& mine,
-                             const std::string& out, std::optional<Failure>& failure) {
-    StudyPlan part = part_of(plan, step.variants, step.change);
-    part.request.reference =
-        part.request.reference && (step.change.divisor == 1 || judges_images(plan.aims));
+std::optional<StepResults> run_step(const StudyPlan& plan, const Step& step, SearchPart& mine,
+                                    const std::string& out, std::optional<Failure>& failure) {
+    const StudyPlan part = part_of(plan, step.variants, step.runs);
     const PointStore store(step.folder.empty() ? out : out + "/" + step.folder, part,
                            Steps::Several);
     SweepSession session(part, store, mine.own_points(part, store, step.folder));
@@ -114,13 +106,12 @@ std::optional<Rung> run_step(const StudyPlan& plan, const Step& step, SearchPart
     if (!complete) {
         return {};
     }
-    Rung rung;
-    rung.change = step.change;
-    rung.warnings = results.warnings;
-    rung.failed = failed_runs(part, results);
-    rung.candidates = candidates_of(part, results, step);
-    rung.cycles = cycles_of(results.comparison);
-    return rung;
+    StepResults found;
+    found.warnings = results.warnings;
+    found.failed = failed_runs(part, results);
+    found.candidates = candidates_of(part, results, step);
+    found.cycles = cycles_of(results.comparison);
+    return found;
 }
 
 /// Why runs of this request do not have a measure: "needs ..."; empty if they do.
@@ -162,23 +153,18 @@ void check_aims(const StudyPlan& plan) {
     kept_variants(plan);
 }
 
-Search search(const StudyPlan& plan, Searcher& searcher, SearchPart& part, const std::string& out,
-              std::optional<Failure>& failure) {
-    Search found;
-    while (const std::optional<Step> step = searcher.next()) {
+std::optional<Search> search(const StudyPlan& plan, Evolution& evolution, SearchPart& part,
+                             const std::string& out, std::optional<Failure>& failure) {
+    while (const std::optional<Step> step = evolution.next()) {
         std::optional<Failure> of_step;
-        const std::optional<Rung> rung = run_step(plan, *step, part, out, of_step);
+        const std::optional<StepResults> found = run_step(plan, *step, part, out, of_step);
         failure = of_step ? of_step : failure;
-        if (!rung) {
-            found.complete = false;
-            return found;
+        if (!found) {
+            return {};
         }
-        searcher.take(*rung);
+        evolution.take(*found);
     }
-    found.rungs = searcher.rungs();
-    found.beliefs = searcher.beliefs();
-    found.facts = searcher.facts();
-    return found;
+    return evolution.found();
 }
 
 } // namespace degs::sim

@@ -4,13 +4,12 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "sim/process/failure.hpp"
+#include "sim/search/evolution.hpp"
 #include "sim/search/search_part.hpp"
-#include "sim/search/searcher.hpp"
+#include "sim/search/search_step.hpp"
 #include "sim/sweep/study_plan.hpp"
-#include "sim/sweep/sweep_results.hpp"
 
 namespace degs::sim {
 
@@ -20,19 +19,11 @@ constexpr const char* kUsualGoals = "area_mm2,latency_ms";
 /// Throws InputError for goals and limits that runs of this plan do not have.
 void check_aims(const StudyPlan& plan);
 
-/// What a search has found.
-struct Search {
-    std::vector<Rung> rungs; ///< the last has the images that were asked for
-    std::vector<Belief> beliefs;
-    Searcher::Facts facts;
-    bool complete = true; ///< false after Ctrl-C
-};
-
-/// Runs what the searcher proposes in the folder `out` and below it, or the part of it that is this
-/// process's; an interrupted search goes on there, because the same steps find their results.
-/// Throws InputError if a design does not have what the goals and limits need, and FailureError if
-/// other parts do not come.
-Search search(const StudyPlan& plan, Searcher& searcher, SearchPart& part, const std::string& out,
-              std::optional<Failure>& failure);
+/// Runs what the evolution proposes in the folder `out` and below it, or the part of it that is
+/// this process's; an interrupted search goes on there, because the same steps find their results.
+/// Empty after Ctrl-C. Throws InputError if a design does not have what the goals and limits need,
+/// and FailureError if other parts do not come.
+std::optional<Search> search(const StudyPlan& plan, Evolution& evolution, SearchPart& part,
+                             const std::string& out, std::optional<Failure>& failure);
 
 } // namespace degs::sim

@@ -22,9 +22,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The last rung in the order of the first goal, the best first.
-std::vector<Candidate> ordered(const StudyPlan& plan, const Rung& rung) {
-    std::vector<Candidate> candidates = rung.candidates;
+/// The results in the order of the first goal, the best first.
+std::vector<Candidate> ordered(const StudyPlan& plan, const Search& search) {
+    std::vector<Candidate> candidates = search.results.candidates;
     std::stable_sort(candidates.begin(), candidates.end(),
                      [&plan](const Candidate& a, const Candidate& b) {
                          return costs_of(goals_of(a.verdict), plan.aims.goals) <
@@ -33,10 +33,9 @@ std::vector<Candidate> ordered(const StudyPlan& plan, const Rung& rung) {
     return candidates;
 }
 
-std::string fidelity_of(const CompareRequest& request, const Rung& rung) {
-    return request.analytic || rung.change.estimates ? "analytic"
-           : request.sampling                        ? "sampled"
-                                                     : "exact";
+/// How the results were found.
+std::string fidelity_of(const CompareRequest& request) {
+    return request.analytic ? "analytic" : request.sampling ? "sampled" : "exact";
 }
 
 /// What a limit is about, where no goal and no earlier limit shows it: it is beside the goals.
@@ -59,9 +58,8 @@ std::optional<double> limited_value(const Candidate& candidate, std::size_t limi
     return limits.empty() ? std::nullopt : limits[limit].value;
 }
 
-std::string front_csv(const StudyPlan& plan, const Search& search,
-                      const std::vector<Candidate>& candidates) {
-    const std::string fidelity = fidelity_of(plan.request, search.rungs.back());
+std::string front_csv(const StudyPlan& plan, const std::vector<Candidate>& candidates) {
+    const std::string fidelity = fidelity_of(plan.request);
     const bool limited = !plan.aims.limits.empty();
     std::string text = "design";
     for (const std::string& key : plan.keys) {
@@ -94,15 +92,17 @@ std::string front_csv(const StudyPlan& plan, const Search& search,
     return text;
 }
 
-/// How well a rung ranks those designs that went on, in one goal.
-std::optional<double> agreement(const Rung& rung, const Rung& next, std::size_t goal) {
+/// How well estimates rank the designs of the results, in one goal.
+std::optional<double> agreement(const Search& search, std::size_t goal) {
     std::vector<double> before;
     std::vector<double> after;
-    for (const Candidate& candidate : next.candidates) {
-        const auto same = std::find_if(
-            rung.candidates.begin(), rung.candidates.end(),
-            [&candidate](const Candidate& other) { return other.variant == candidate.variant; });
-        if (same != rung.candidates.end() && same->verdict.goals.at(goal)) {
+    const std::vector<Candidate>& estimated = search.estimates->candidates;
+    for (const Candidate& candidate : search.results.candidates) {
+        const auto same =
+            std::find_if(estimated.begin(), estimated.end(), [&candidate](const Candidate& other) {
+                return other.variant == candidate.variant;
+            });
+        if (same != estimated.end() && same->verdict.goals.at(goal)) {
             before.push_back(*same->verdict.goals.at(goal));
             after.push_back(*candidate.verdict.goals.at(goal));
         }
@@ -110,14 +110,10 @@ std::optional<double> agreement(const Rung& rung, const Rung& next, std::size_t 
     return rank_correlation(before, after);
 }
 
-ordered_json rung_json(const StudyPlan& plan, const Search& search, std::size_t r) {
-    const Rung& rung = search.rungs[r];
+ordered_json step_json(const StudyPlan& plan, const StepResults& results) {
     const std::vector<Aim>& goals = plan.aims.goals;
-    ordered_json json = {{"divisor", rung.change.divisor},
-                         {"fidelity", fidelity_of(plan.request, rung)},
-                         {"simulated_cycles", rung.cycles},
-                         {"designs", ordered_json::array()}};
-    for (const Candidate& candidate : rung.candidates) {
+    ordered_json json = {{"designs", ordered_json::array()}, {"failed", ordered_json::array()}};
+    for (const Candidate& candidate : results.candidates) {
         ordered_json row = {{"name", plan.variants[candidate.variant].name}};
         for (std::size_t g = 0; g < goals.size(); ++g) {
             row[goals[g].name] = number_json(candidate.verdict.goals[g]);
@@ -127,15 +123,8 @@ ordered_json rung_json(const StudyPlan& plan, const Search& search, std::size_t 
         }
         json["designs"].push_back(std::move(row));
     }
-    json["failed"] = ordered_json::array();
-    for (const FailedRun& failed : rung.failed) {
+    for (const FailedRun& failed : results.failed) {
         json["failed"].push_back({{"name", failed.config}, {"why", failed.sentence}});
-    }
-    if (r + 1 < search.rungs.size()) {
-        for (std::size_t g = 0; g < goals.size(); ++g) {
-            json["rank_correlation_with_next"][goals[g].name] =
-                number_json(agreement(rung, search.rungs[r + 1], g));
-        }
     }
     return json;
 }
@@ -145,7 +134,7 @@ ordered_json search_json(const StudyPlan& plan, const Search& search) {
     json["schema"] = {{"name", "degs-explore"}, {"version", kExploreVersion}};
     json["tool"] = tool_json();
     json["study"] = plan.name;
-    json["fidelity"] = fidelity_of(plan.request, search.rungs.back());
+    json["fidelity"] = fidelity_of(plan.request);
     put_record(plan, search, json);
     json["goals"] = ordered_json::array();
     json["better"] = ordered_json::array();
@@ -160,10 +149,14 @@ ordered_json search_json(const StudyPlan& plan, const Search& search) {
     for (const SkippedVariant& skipped : plan.skipped) {
         json["skipped"].push_back({{"name", skipped.variant.name}, {"why", skipped.why}});
     }
-    json["rungs"] = ordered_json::array();
-    for (std::size_t r = 0; r < search.rungs.size(); ++r) {
-        json["rungs"].push_back(rung_json(plan, search, r));
+    if (search.estimates) {
+        json["estimates"] = step_json(plan, *search.estimates);
+        for (std::size_t g = 0; g < plan.aims.goals.size(); ++g) {
+            json["estimates"]["rank_correlation"][plan.aims.goals[g].name] =
+                number_json(agreement(search, g));
+        }
     }
+    json["results"] = step_json(plan, search.results);
     return json;
 }
 
@@ -240,13 +233,14 @@ std::string front_table(const StudyPlan& plan, const std::vector<Candidate>& can
            table.text();
 }
 
-/// "; rank correlation with the next line 0.99": of the second goal of two, else the least of all.
-std::string agreement_words(const StudyPlan& plan, const Rung& rung, const Rung& next) {
+/// "; rank correlation with the simulations 0.99": of the second goal of two, else the least of
+/// all.
+std::string agreement_words(const StudyPlan& plan, const Search& search) {
     const std::size_t goals = plan.aims.goals.size();
     std::optional<double> least;
     std::size_t whose = 0;
     for (std::size_t g = goals == 2 ? 1 : 0; g < goals; ++g) {
-        const std::optional<double> agreed = agreement(rung, next, g);
+        const std::optional<double> agreed = agreement(search, g);
         if (agreed && (!least || *agreed < *least)) {
             least = agreed;
             whose = g;
@@ -255,8 +249,20 @@ std::string agreement_words(const StudyPlan& plan, const Rung& rung, const Rung&
     if (!least) {
         return "";
     }
-    return "; " + std::string(goals > 2 ? "least " : "") + "rank correlation with the next line " +
-           three_digits(*least) + (goals > 2 ? " (" + plan.aims.goals[whose].name + ")" : "");
+    return "; " + std::string(goals > 2 ? "least " : "") +
+           "rank correlation with the simulations " + three_digits(*least) +
+           (goals > 2 ? " (" + plan.aims.goals[whose].name + ")" : "");
+}
+
+/// How many designs were estimated, and how many simulated.
+std::string counts_text(const StudyPlan& plan, const Search& search) {
+    std::string text;
+    if (search.estimates) {
+        text += grouped(search.estimates->candidates.size()) + " designs estimated" +
+                agreement_words(plan, search) + "\n";
+    }
+    return text + grouped(search.results.candidates.size()) + " designs " +
+           (plan.request.analytic ? "estimated" : "simulated") + "\n";
 }
 
 std::string limits_text(const StudyPlan& plan, const std::vector<Candidate>& candidates) {
@@ -297,9 +303,9 @@ std::string picture(const StudyPlan& plan, const std::vector<Candidate>& candida
 } // namespace
 
 void write_search(const StudyPlan& plan, const Search& search, const OutputFolder& folder) {
-    const std::vector<Candidate> candidates = ordered(plan, search.rungs.back());
+    const std::vector<Candidate> candidates = ordered(plan, search);
     folder.replace([&] {
-        folder.write_text("front.csv", front_csv(plan, search, candidates));
+        folder.write_text("front.csv", front_csv(plan, candidates));
         folder.write_text("front.svg", picture(plan, candidates));
         folder.write_json("explore.json", search_json(plan, search));
         if (!search.beliefs.empty()) {
@@ -309,24 +315,12 @@ void write_search(const StudyPlan& plan, const Search& search, const OutputFolde
 }
 
 std::string search_text(const StudyPlan& plan, const Search& search) {
-    std::string text;
-    for (std::size_t r = 0; r < search.rungs.size(); ++r) {
-        const Rung& rung = search.rungs[r];
-        text += grouped(rung.candidates.size()) + " designs " +
-                (rung.change.estimates ? "estimated"
-                 : rung.change.divisor == 1
-                     ? "at full size"
-                     : "at 1/" + std::to_string(rung.change.divisor) + " of the size");
-        if (r + 1 < search.rungs.size()) {
-            text += agreement_words(plan, rung, search.rungs[r + 1]);
-        }
-        text += "\n";
-    }
+    std::string text = counts_text(plan, search);
     text += record_text(plan, search);
     if (!plan.skipped.empty()) {
         text += grouped(plan.skipped.size()) + " designs cannot be built\n";
     }
-    const std::vector<Candidate> candidates = ordered(plan, search.rungs.back());
+    const std::vector<Candidate> candidates = ordered(plan, search);
     text += plan.aims.limits.empty() ? "" : limits_text(plan, candidates);
     text += plan.request.analytic ? "estimates of the analytic model, not simulations: " : "";
     for (const Aim& goal : plan.aims.goals) {

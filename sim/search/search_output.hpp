@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/search/search.hpp"
+#include "sim/search/search_step.hpp"
 #include "sim/shell/output_folder.hpp"
 
 namespace degs::sim {
@@ -13,11 +13,11 @@ namespace degs::sim {
 /// Raised whenever a key of explore.json changes its meaning, name or unit.
 constexpr int kExploreVersion = 1;
 
-/// Writes search_files(): the designs of the last rung, and how each came there; beliefs.csv only
-/// of a search that believes something.
+/// Writes search_files(): the results, and how the search came to them; beliefs.csv only of a
+/// search that believed something.
 void write_search(const StudyPlan& plan, const Search& search, const OutputFolder& folder);
 
-/// The front as a table, and how well the small images ranked the designs.
+/// The front as a table, and how well the estimates ranked the designs.
 std::string search_text(const StudyPlan& plan, const Search& search);
 
 } // namespace degs::sim

@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 /// What came out for a belief; nothing if the simulation failed.
 const Candidate* found(const Search& search, const Belief& belief) {
-    const std::vector<Candidate>& all = search.rungs.back().candidates;
+    const std::vector<Candidate>& all = search.results.candidates;
     const auto same = std::find_if(all.begin(), all.end(), [&belief](const Candidate& candidate) {
         return candidate.variant == belief.variant;
     });
@@ -25,22 +25,6 @@ const Candidate* found(const Search& search, const Belief& belief) {
 
 std::optional<double> found_goal(const Candidate* candidate, std::size_t goal) {
     return candidate == nullptr ? std::nullopt : candidate->verdict.goals.at(goal);
-}
-
-double all_cycles(const Search& search) {
-    double cycles = 0;
-    for (const Rung& rung : search.rungs) {
-        cycles += rung.cycles;
-    }
-    return cycles;
-}
-
-std::size_t designs_of(const Search& search, bool estimates) {
-    std::size_t most = 0; // a design of a later rung was in those before it
-    for (const Rung& rung : search.rungs) {
-        most = rung.change.estimates == estimates ? std::max(most, rung.candidates.size()) : most;
-    }
-    return most;
 }
 
 ordered_json belief_json(const StudyPlan& plan, const Search& search, const Belief& belief) {
@@ -87,15 +71,20 @@ std::string error_words(const StudyPlan& plan, const Search& search) {
 
 void put_record(const StudyPlan& plan, const Search& search, ordered_json& json) {
     ordered_json& spent = json["search"];
-    spent["method"] = search.facts.method;
-    for (const auto& [name, value] : search.facts.options) {
+    for (const auto& [name, value] : search.options) {
         spent[name] = value;
     }
-    spent["estimated"] = designs_of(search, true);
-    spent["simulated"] = plan.request.analytic ? 0 : designs_of(search, false);
-    spent["simulated_cycles"] = all_cycles(search);
-    if (!search.facts.end.empty()) {
-        spent["end"] = search.facts.end;
+    const std::size_t designs = search.results.candidates.size();
+    spent["estimated"] = search.estimates        ? search.estimates->candidates.size()
+                         : plan.request.analytic ? designs
+                                                 : 0;
+    spent["simulated"] = plan.request.analytic ? 0 : designs;
+    spent["simulated_cycles"] = search.results.cycles;
+    if (!search.no_estimates.empty()) {
+        spent["no_estimates"] = search.no_estimates;
+    }
+    if (!search.end.empty()) {
+        spent["end"] = search.end;
     }
     for (const Belief& belief : search.beliefs) {
         json["beliefs"].push_back(belief_json(plan, search, belief));
@@ -128,12 +117,15 @@ std::string beliefs_csv(const StudyPlan& plan, const Search& search) {
 
 std::string record_text(const StudyPlan& plan, const Search& search) {
     std::string text;
-    if (all_cycles(search) > 0) {
-        text += grouped(static_cast<std::uint64_t>(all_cycles(search))) + " cycles simulated" +
+    if (!search.no_estimates.empty()) {
+        text += "no design was estimated, because " + search.no_estimates + "\n";
+    }
+    if (search.results.cycles > 0) {
+        text += grouped(static_cast<std::uint64_t>(search.results.cycles)) + " cycles simulated" +
                 error_words(plan, search) + "\n";
     }
-    if (!search.facts.end.empty()) {
-        text += "the search ended because " + search.facts.end + "\n";
+    if (!search.end.empty()) {
+        text += "the search ended because " + search.end + "\n";
     }
     return text;
 }

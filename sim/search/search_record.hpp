@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/search/search.hpp"
+#include "sim/search/search_step.hpp"
 
 namespace degs::sim {
 
@@ -16,7 +16,8 @@ void put_record(const StudyPlan& plan, const Search& search, nlohmann::ordered_j
 /// beliefs.csv: a line for each simulated design, in the order of the rounds.
 std::string beliefs_csv(const StudyPlan& plan, const Search& search);
 
-/// How many cycles were simulated, why the search ended, and how far off beliefs were.
+/// Why there are no estimates, how many cycles were simulated, how far off beliefs were, and why
+/// the search ended.
 std::string record_text(const StudyPlan& plan, const Search& search);
 
 } // namespace degs::sim

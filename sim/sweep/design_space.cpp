@@ -61,6 +61,39 @@ void check_overrides(const Study& study) {
     check_addressees(study.overrides, names);
 }
 
+/// The next combination of a design; false after the last one.
+bool advance(Genes& place, const std::vector<Gene>& genes) {
+    for (std::size_t a = place.size(); a-- > 1;) {
+        if (++place[a] < genes[a].positions) {
+            return true;
+        }
+        place[a] = 0;
+    }
+    return false;
+}
+
+void list_combinations(std::size_t design, const std::vector<Gene>& genes,
+                       std::vector<Genes>& places) {
+    Genes place(genes.size(), 0);
+    place.front() = design;
+    do {
+        places.push_back(place);
+    } while (advance(place, genes));
+}
+
+void list_one_at_a_time(std::size_t design, const std::vector<Gene>& genes,
+                        std::vector<Genes>& places) {
+    Genes place(genes.size(), DesignSpace::kOwn);
+    place.front() = design;
+    places.push_back(place);
+    for (std::size_t a = 1; a < place.size(); ++a) {
+        for (place[a] = 0; place[a] < genes[a].positions; ++place[a]) {
+            places.push_back(place);
+        }
+        place[a] = DesignSpace::kOwn;
+    }
+}
+
 /// Whether the positions of an axis are numbers of one key, so that they have an order.
 bool is_ordered(const Axis& axis) {
     return axis.keys.size() == 1 &&
@@ -179,6 +212,9 @@ std::vector<NamedConfig> DesignSpace::designs() const {
 }
 
 std::uint64_t DesignSpace::size() const {
+    if (!is_product()) {
+        return places().size();
+    }
     std::uint64_t product = 1;
     for (const Gene& gene : genes_) {
         if (__builtin_mul_overflow(product, std::uint64_t{gene.positions}, &product)) {
@@ -186,6 +222,18 @@ std::uint64_t DesignSpace::size() const {
         }
     }
     return product;
+}
+
+std::vector<Genes> DesignSpace::places() const {
+    std::vector<Genes> places;
+    for (std::size_t design = 0; design < designs_.size(); ++design) {
+        if (is_product()) {
+            list_combinations(design, genes_, places);
+        } else {
+            list_one_at_a_time(design, genes_, places);
+        }
+    }
+    return places;
 }
 
 /// `texts` by key; a design's own values if it is empty.

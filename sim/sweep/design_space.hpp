@@ -35,8 +35,12 @@ public:
     /// The designs as they stand.
     std::vector<NamedConfig> designs() const;
     const std::vector<Gene>& genes() const { return genes_; }
+    /// Whether every value of an axis is combined with every value of the others.
+    bool is_product() const { return !study_.one_at_a_time; }
     /// How many places there are, or the largest number.
     std::uint64_t size() const;
+    /// All places, one design after the other, the last axis fastest.
+    std::vector<Genes> places() const;
 
     struct Added {
         std::optional<std::size_t> variant; ///< of the plan; empty for what cannot be built

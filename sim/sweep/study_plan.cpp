@@ -186,8 +186,7 @@ StudyPlan plan_study(const Study& study) {
     return plan;
 }
 
-StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants,
-                  const PartChange& change) {
+StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants, PartRuns runs) {
     StudyPlan part = plan;
     part.variants.clear();
     part.request.configs.clear();
@@ -200,22 +199,7 @@ StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variant
         part.variants.push_back(plan.variants[variant]);
         part.request.configs.push_back(plan.request.configs[variant]);
     }
-    if (change.divisor != 1 && !part.request.crop.empty()) {
-        throw InputError("A search begins with smaller images, of which 'crop' (--crop) is no "
-                         "part, so the study cannot have both.");
-    }
-    for (ImageSize& size : part.request.sizes) {
-        if (change.divisor != 1 && !size.width && !size.height) {
-            throw InputError("The study needs 'width' or 'resolutions', because a search begins "
-                             "with smaller images.");
-        }
-        for (std::optional<int>* side : {&size.width, &size.height}) {
-            if (*side) {
-                *side = std::max(1, **side / change.divisor);
-            }
-        }
-    }
-    if (change.estimates) {
+    if (runs == PartRuns::Estimates) {
         part.request.analytic = true;
         part.request.reference = false;
         part.request.sampling.reset();

@@ -82,16 +82,11 @@ StudyPlan plan_study(const Study& study);
 /// InputError if a scene or camera does not exist.
 StudyPlan plan_views(const Study& study);
 
-/// What a part of a plan has otherwise than the plan.
-struct PartChange {
-    int divisor = 1;        ///< of the sides of the images
-    bool estimates = false; ///< of single frames, in place of what the plan asks for
-};
+/// What is run of a part of a plan: what the plan asks for, or estimates of single frames.
+enum class PartRuns { AsPlanned, Estimates };
 
 /// A plan with the same views for some of a plan's variants. The plan's baseline must be among
-/// them. Throws InputError if a divisor other than 1 finds that images have the sizes of their
-/// cameras, which are not known yet.
-StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants,
-                  const PartChange& change);
+/// them.
+StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants, PartRuns runs);
 
 } // namespace degs::sim

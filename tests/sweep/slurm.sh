@@ -173,7 +173,7 @@ echo "three tasks of an array with --shard auto give the bytes of a plain sweep"
 # back.
 slurmd -N n1
 until_true 60 nodes_are_idle
-search="$folder/small.yaml --search evolution --budget 12"
+search="$folder/small.yaml --budget 12"
 "$program" explore $search --out "$folder/searched" >/dev/null 2>&1
 timeout 120 sbatch --wait --array=1-2 --mem=100 --output="$folder/search-%a.log" \
     --wrap "$program explore $search --out $folder/search --shard auto"

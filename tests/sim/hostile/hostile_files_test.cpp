@@ -212,17 +212,16 @@ TEST(HostileOutput, NoResultReplacesAnInput) {
         std::vector<std::string> words;
     };
     const std::string explored = out + "/explore.json";
-    const std::vector<Case> cases{
-        {"accuracy", "accuracy.json", "c.json", pixels},
-        {"accuracy", "error-1-s-64x48-paper.exr", "c.json", pixels},
-        {"explore", "explore.json", "study.yaml", {explored, "--rungs", "1"}},
-        {"explore", "explore.json", "c.json", {study[0], "--rungs", "1"}},
-        {"sweep", "reports/000002.json", "c.json", study},
-        {"sweep", "study.json", "c.json", study},
-        {"compare",
-         "reports/1-s-camera0-48x36/1-n.json",
-         "c.json",
-         {design[0], view[0], view[1], view[2], view[3]}}};
+    const std::vector<Case> cases{{"accuracy", "accuracy.json", "c.json", pixels},
+                                  {"accuracy", "error-1-s-64x48-paper.exr", "c.json", pixels},
+                                  {"explore", "explore.json", "study.yaml", {explored}},
+                                  {"explore", "explore.json", "c.json", study},
+                                  {"sweep", "reports/000002.json", "c.json", study},
+                                  {"sweep", "study.json", "c.json", study},
+                                  {"compare",
+                                   "reports/1-s-camera0-48x36/1-n.json",
+                                   "c.json",
+                                   {design[0], view[0], view[1], view[2], view[3]}}};
     for (const Case& each : cases) {
         SCOPED_TRACE(std::string(each.command) + " " + each.input);
         fs::remove_all(out);

@@ -65,8 +65,8 @@ TEST(StatedCommands, MakeThePicturesAgain) {
     const std::string file = bandwidth_study(folder);
     expect_pictures({"sweep", "--width", "64", file, "--jobs", "2", "--sort", "cycles"},
                     "degs sweep '" + file + "' --width 64", {"bandwidth.svg"});
-    expect_pictures({"explore", file, "--width", "64", "--rungs", "1", "--jobs", "2"},
-                    "degs explore '" + file + "' --width 64 --rungs 1",
+    expect_pictures({"explore", file, "--width", "64", "--budget", "9", "--jobs", "2"},
+                    "degs explore '" + file + "' --width 64 --budget 9",
                     {"bandwidth.svg", "front.svg"});
     expect_pictures({"compare", config("degs-64"), config("degs-16"), "--jobs", "2", "--scene",
                      "synthetic:object,gaussians=300", "--width", "64", "--no-reference"},

@@ -66,7 +66,7 @@ TEST(NearPlane, SaysWhatItRemovesInCommandsOfSeveralRuns) {
     };
     warns({"compare", design, "--scene", scene}, {"--set", nearer});
     warns({"sweep", study}, {"--set", nearer});
-    warns({"explore", study, "--rungs", "1"}, {"--set", nearer});
+    warns({"explore", study}, {"--set", nearer});
     warns({"soc", design, "--scene", scene, "--load", "0"}, {"--set", nearer});
     warns({"accuracy", "--scene", scene, "--numbers", "fp16", "--no-error-images"},
           {"--near", "0.01"});

@@ -104,12 +104,8 @@ const std::map<std::string, Words> kValues{{"--views", {"0,1"}},
                                            {"config", {"degs"}},
                                            {"command", {"run"}},
                                            {"out", {"scene.glb"}}};
-const std::map<std::string, std::string> kOthers{{"--frames=1", "2"},
-                                                 {"--between=0", "2"},
-                                                 {"--of=run", "compare"},
-                                                 {"--search=halving", "evolution"},
-                                                 {"--search=evolution", "halving"},
-                                                 {"--cpu=riscv", "host"}};
+const std::map<std::string, std::string> kOthers{
+    {"--frames=1", "2"}, {"--between=0", "2"}, {"--of=run", "compare"}, {"--cpu=riscv", "host"}};
 
 /// A term as words of a command line.
 Words line_of(const OptionTerm& term) {

@@ -47,9 +47,7 @@ TEST(MemoryOption, IsTheSameInEveryCommandThatSimulates) {
                   .code,
               0);
     EXPECT_EQ(quiet({"sweep", study, "--memory", memory, "--out", folder / "s"}).code, 0);
-    EXPECT_EQ(
-        quiet({"explore", study, "--rungs", "1", "--memory", memory, "--out", folder / "e"}).code,
-        0);
+    EXPECT_EQ(quiet({"explore", study, "--memory", memory, "--out", folder / "e"}).code, 0);
     for (const char* const file : {"c/compare.json", "s/results.json", "e/results.json"}) {
         const nlohmann::json runs = json_in(folder / file)["runs"];
         ASSERT_EQ(runs.size(), 2U) << file;
@@ -121,12 +119,8 @@ TEST(CameraFileOption, IsPartOfAPoint) {
     for (const char* const command : {"sweep", "explore"}) {
         const std::string out = folder / command;
         const auto runs = [&](const std::string& cameras) {
-            std::vector<std::string> words{command,         study,   "--cameras", "0,1",
-                                           "--camera-file", cameras, "--out",     out};
-            if (std::string(command) == "explore") {
-                words.insert(words.end(), {"--rungs", "1"});
-            }
-            const Outcome outcome = degs(words);
+            const Outcome outcome =
+                degs({command, study, "--cameras", "0,1", "--camera-file", cameras, "--out", out});
             EXPECT_EQ(outcome.code, 0) << outcome.err;
             std::size_t count = 0;
             for (std::size_t at = 0; (at = outcome.err.find(" done · ", at)) != std::string::npos;

@@ -117,11 +117,8 @@ TEST(HostileStudySize, IsSaidAtOnce) {
         }
         text << "scenes: synthetic:object,gaussians=300\nwidth: 48\n" << more;
         text.close();
-        for (const char* command : {"sweep", "explore"}) {
-            std::vector<std::string> all{command, file, "--out", folder / "o"};
-            const Outcome outcome = degs(all, [] { ::alarm(20); });
-            expect_mistake(outcome, words);
-        }
+        const Outcome outcome = degs({"sweep", file, "--out", folder / "o"}, [] { ::alarm(20); });
+        expect_mistake(outcome, words);
     };
     says(6, "1..64 +1", "", "The study has 68 719 476 736 points; at most 100 000 are allowed.");
     says(8, "1..4096 +1", "", "has more than 18 446 744 073 709 551 615 points; at most 100 000");

@@ -167,8 +167,7 @@ TEST(HostilePointFiles, StopWhenTheyCannotBeWritten) {
             << outcome.err;
         EXPECT_TRUE(files_in(folder / "o/points").empty());
     }
-    EXPECT_EQ(degs({"explore", file, "--rungs", "1", "--out", folder / "e"}, disk_of(4000)).code,
-              2);
+    EXPECT_EQ(degs({"explore", file, "--out", folder / "e"}, disk_of(4000)).code, 2);
     EXPECT_EQ(runs_of(file, folder / "o"), 6U);
 }
 

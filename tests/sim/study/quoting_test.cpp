@@ -86,7 +86,7 @@ TEST(HostileQuoting, InTheFilesOfASearchAndAComparison) {
     const Folder folder;
     const std::string file = wild_study(folder);
     const std::string out = folder / "o";
-    const Outcome searched = degs({"explore", file, "--rungs", "1", "--out", out});
+    const Outcome searched = degs({"explore", file, "--out", out});
     EXPECT_EQ(searched.code, 0) << searched.err;
     EXPECT_EQ((searched.out + searched.err).find('\x1b'), std::string::npos);
     const std::string csv = read_file(out + "/front.csv");

@@ -31,11 +31,7 @@ std::string changed_study(const Folder& folder, const std::string& own, const st
 
 std::string said_by(const std::string& command, const std::string& study,
                     const std::string& folder) {
-    std::vector<std::string> words{command, study, "--out", folder};
-    if (command == "explore") {
-        words.insert(words.end(), {"--rungs", "1"});
-    }
-    const Outcome outcome = degs(words);
+    const Outcome outcome = degs({command, study, "--out", folder});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return outcome.err;
 }

@@ -59,8 +59,8 @@ TEST(LongWholeResults, OfASearchThatIsKilled) {
     const std::string file = space_of_eight(folder);
     const std::string out = folder / "o";
     const auto with = [&](const std::string& goals) {
-        return std::vector<std::string>{"explore", file,  "--rungs", "2",
-                                        "--goals", goals, "--out",   out};
+        return std::vector<std::string>{"explore", file,  "--budget", "5",
+                                        "--goals", goals, "--out",    out};
     };
     kill_by_turns(with("area_mm2,latency_ms"), with("area_mm2,energy.nj_per_frame"), [&] {
         if (fs::exists(out + "/explore.json")) {

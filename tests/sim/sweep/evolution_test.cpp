@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// degs explore --search evolution: its parts by hand, and searches against all points of a space.
+// degs explore: its parts by hand, and searches against all points of a space.
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -150,9 +150,9 @@ nlohmann::json explored(const std::string& file, const std::string& out,
     return nlohmann::json::parse(read_file(out + "/explore.json"));
 }
 
-std::vector<Goals> last_rung(const nlohmann::json& found) {
+std::vector<Goals> costs_in(const nlohmann::json& found) {
     std::vector<Goals> costs;
-    for (const auto& design : found["rungs"].back()["designs"]) {
+    for (const auto& design : found["results"]["designs"]) {
         if (!design.contains("within") || design["within"] == "yes") {
             costs.push_back({});
             for (const auto& goal : found["goals"]) {
@@ -168,15 +168,17 @@ TEST(Evolution, FindsTheFrontOfAllDesigns) {
     const std::string file = two_view_space(folder);
     const std::vector<std::string> aims{"--goals", "area_mm2,latency_ms,energy.nj_per_frame",
                                         "--limits", "area_mm2<=3.7,worst(latency_ms)<=2*baseline"};
-    std::vector<std::string> all = aims;
-    all.insert(all.end(), {"--rungs", "1"});
     std::vector<std::string> few = aims;
-    few.insert(few.end(), kEvolution.begin(), kEvolution.end());
+    few.insert(few.end(), kHalf.begin(), kHalf.end());
+    std::vector<std::string> all = aims;
+    all.insert(all.end(), {"--budget", "24"}); // as many as there are
     const nlohmann::json everything = explored(file, folder / "all", all);
     const nlohmann::json found = explored(file, folder / "few", few);
     const Goals worst{std::log(4.0), std::log(0.02), std::log(1e5)};
-    EXPECT_GE(hypervolume(last_rung(found), worst),
-              0.99 * hypervolume(last_rung(everything), worst));
+    EXPECT_GE(hypervolume(costs_in(found), worst), 0.99 * hypervolume(costs_in(everything), worst));
+    EXPECT_EQ(everything["search"]["simulated"], 24);
+    EXPECT_EQ(everything["search"]["estimated"], 0);
+    EXPECT_EQ(everything["search"]["end"], "the budget has room for all designs");
     EXPECT_EQ(found["search"]["estimated"], 24);
     EXPECT_LE(found["search"]["simulated"], 12);
     EXPECT_LE(found["search"]["simulated_cycles"].get<double>(),
@@ -193,8 +195,8 @@ TEST(Evolution, FindsTheFrontOfAllDesigns) {
 
 TEST(Evolution, TriesADesignThatFailsOnce) {
     const Folder folder;
-    const Outcome outcome = degs(explore_words(failing_space(folder), folder / "out",
-                                               {"--search", "evolution", "--budget", "7"}));
+    const Outcome outcome =
+        degs(explore_words(failing_space(folder), folder / "out", {"--budget", "5"}));
     EXPECT_NE(outcome.code, 0);
     int tries = 0;
     for (std::size_t at = 0; (at = outcome.err.find(" failed ·", at)) != std::string::npos; ++at) {
@@ -202,10 +204,10 @@ TEST(Evolution, TriesADesignThatFailsOnce) {
     }
     EXPECT_EQ(tries, 3) << outcome.err;
     const auto found = nlohmann::json::parse(read_file(folder / "out/explore.json"));
-    EXPECT_EQ(found["rungs"].back()["failed"].size(), 3U);
+    EXPECT_EQ(found["results"]["failed"].size(), 3U);
     // One of the others is larger and no faster by its estimate, so that it may be left out.
-    EXPECT_GE(found["rungs"].back()["designs"].size(), 2U);
-    EXPECT_EQ(found["rungs"].back()["designs"].back()["name"], "degs-64 span.count=4");
+    EXPECT_GE(found["results"]["designs"].size(), 2U);
+    EXPECT_EQ(found["results"]["designs"].back()["name"], "degs-64 span.count=4");
 }
 
 /// Kills the program, without children that would go on, when it has made so many points.
@@ -242,8 +244,8 @@ void kill_after(std::size_t points, const std::string& out, const std::vector<st
 TEST(Evolution, GoesOnAfterItWasKilled) {
     const Folder folder;
     const std::string file = two_view_space(folder);
-    explored(file, folder / "whole", kEvolution);
-    kill_after(10, folder / "killed", explore_words(file, folder / "killed", kEvolution));
+    explored(file, folder / "whole", kHalf);
+    kill_after(10, folder / "killed", explore_words(file, folder / "killed", kHalf));
     std::map<std::string, fs::file_time_type> before;
     for (const auto& point : fs::directory_iterator(folder / "killed/points")) {
         if (point.path().extension() == ".point") {
@@ -251,7 +253,7 @@ TEST(Evolution, GoesOnAfterItWasKilled) {
         }
     }
     EXPECT_GE(before.size(), 10U);
-    explored(file, folder / "killed", kEvolution);
+    explored(file, folder / "killed", kHalf);
     for (const auto& [point, time] : before) {
         EXPECT_EQ(fs::last_write_time(point), time) << "was simulated again: " << point;
     }
@@ -266,9 +268,9 @@ TEST(LongSearchFiles, GoWithTheResultsThatTheyTellOf) {
     const Folder folder;
     const std::string file = two_view_space(folder);
     const std::string out = folder / "out";
-    explored(file, out, kEvolution);
+    explored(file, out, kHalf);
     EXPECT_TRUE(fs::exists(out + "/beliefs.csv"));
-    explored(file, out, {"--search", "halving", "--rungs", "1"});
+    explored(file, out, {});
     EXPECT_FALSE(fs::exists(out + "/beliefs.csv"));
     EXPECT_TRUE(fs::exists(out + "/front.svg"));
     const std::string other = folder / "bandwidth.yaml";
@@ -281,7 +283,7 @@ TEST(LongSearchFiles, GoWithTheResultsThatTheyTellOf) {
         EXPECT_FALSE(fs::exists(out + "/" + gone)) << gone;
     }
     EXPECT_TRUE(fs::exists(out + "/bandwidth.svg"));
-    explored(file, out, {"--rungs", "1", "--limits", "area_mm2<=2.7"});
+    explored(file, out, {"--limits", "area_mm2<=2.7"});
     EXPECT_FALSE(fs::exists(out + "/bandwidth.svg"));
     EXPECT_FALSE(fs::exists(out + "/reports/000049.json")); // 24 designs on two views
 }
@@ -289,7 +291,7 @@ TEST(LongSearchFiles, GoWithTheResultsThatTheyTellOf) {
 TEST(LongEvolution, SearchesAMillionDesigns) {
     const Folder folder;
     const std::string file = million_space(folder);
-    std::vector<std::string> options = kEvolution;
+    std::vector<std::string> options = kHalf;
     options.insert(options.end(), {"--population", "16", "--generations", "5"});
     const nlohmann::json found = explored(file, folder / "a", options);
     EXPECT_GT(found["search"]["space"], 1000000);
@@ -299,13 +301,95 @@ TEST(LongEvolution, SearchesAMillionDesigns) {
     explored(file, folder / "b", options);
     EXPECT_EQ(read_file(folder / "a/explore.json"), read_file(folder / "b/explore.json"));
     options.insert(options.end(), {"--seed", "2"});
-    EXPECT_NE(explored(file, folder / "c", options)["rungs"], found["rungs"]);
-    const nlohmann::json estimated = explored(file, folder / "d",
-                                              {"--search", "evolution", "--fidelity", "analytic",
-                                               "--population", "16", "--generations", "5"});
+    EXPECT_NE(explored(file, folder / "c", options)["results"], found["results"]);
+    const nlohmann::json estimated = explored(
+        file, folder / "d", {"--fidelity", "analytic", "--population", "16", "--generations", "5"});
     EXPECT_EQ(estimated["fidelity"], "analytic");
     EXPECT_EQ(estimated["search"]["simulated"], 0);
-    EXPECT_EQ(estimated["rungs"].size(), 1U);
+    EXPECT_FALSE(estimated.contains("estimates"));
+    EXPECT_EQ(estimated["results"]["designs"].size(), estimated["search"]["estimated"]);
+    const nlohmann::json drawn =
+        explored(file, folder / "e",
+                 {"--array-only", "--budget", "8", "--population", "16", "--generations", "2"});
+    EXPECT_EQ(drawn["search"]["estimated"], 0);
+    EXPECT_EQ(drawn["results"]["designs"].size(), 8U);
+}
+
+/// A little worse than all designs.
+Goals worst_of(const std::vector<Goals>& costs) {
+    Goals worst = costs.front();
+    for (const Goals& each : costs) {
+        for (std::size_t g = 0; g < worst.size(); ++g) {
+            worst[g] = std::max(worst[g], each[g] + 0.01);
+        }
+    }
+    return worst;
+}
+
+// What has no estimate is searched by the places of the designs: a search of half of the space, and
+// of all of it.
+void expect_search_without_estimates(const std::vector<std::string>& aims, const std::string& why) {
+    const Folder folder;
+    const std::string file = two_view_space(folder);
+    std::vector<std::string> half = aims;
+    half.insert(half.end(), kHalf.begin(), kHalf.end());
+    const nlohmann::json everything = explored(file, folder / "all", aims);
+    const nlohmann::json found = explored(file, folder / "few", half);
+    EXPECT_EQ(found["search"]["estimated"], 0);
+    EXPECT_LE(found["search"]["simulated"], 12);
+    EXPECT_EQ(found["search"]["no_estimates"], why);
+    EXPECT_FALSE(everything["search"].contains("no_estimates"));
+    EXPECT_FALSE(fs::exists(folder / "few/estimates"));
+    const std::string goal = found["goals"].back();
+    EXPECT_TRUE(found["beliefs"][0]["believed"][goal].is_null());
+    EXPECT_TRUE(found["beliefs"].back()["believed"][goal].is_number());
+    const std::vector<Goals> all = costs_in(everything);
+    EXPECT_EQ(all.size(), 24U);
+    EXPECT_GE(hypervolume(costs_in(found), worst_of(all)), 0.9 * hypervolume(all, worst_of(all)));
+}
+
+TEST(Evolution, SearchesArraysAlone) {
+    expect_search_without_estimates(
+        {"--array-only"}, "the arrays run alone, and estimates are of whole accelerators");
+}
+
+TEST(Evolution, SearchesGoalsWithoutEstimates) {
+    expect_search_without_estimates(
+        {"--goals", "min:slots.starved*area_mm2,min:area_mm2/slots.useful"},
+        "none of the goals has an estimate");
+}
+
+// The designs of a study that varies one key after the other, as a sweep has them.
+TEST(Evolution, SearchesAStudyThatVariesOneAtATime) {
+    const Folder folder;
+    const std::string file = two_view_space(folder);
+    std::ofstream(file, std::ios::app) << "combine: one_at_a_time\n";
+    const auto names = [](const nlohmann::json& designs) {
+        std::set<std::string> all;
+        for (const auto& design : designs) {
+            all.insert(design["name"].get<std::string>());
+        }
+        return all;
+    };
+    const nlohmann::json everything = explored(file, folder / "all", {});
+    ASSERT_EQ(degs({"sweep", file, "--out", folder / "sweep"}).code, 0);
+    const auto swept = nlohmann::json::parse(read_file(folder / "sweep/results.json"));
+    EXPECT_EQ(names(everything["results"]["designs"]), names(swept["variants"]));
+    EXPECT_EQ(everything["results"]["designs"].size(), 7U); // 3 + 2 + 1 beside the own values
+    const nlohmann::json few = explored(file, folder / "few", {"--budget", "5"});
+    EXPECT_EQ(names(few["estimates"]["designs"]), names(swept["variants"]));
+    EXPECT_LE(few["results"]["designs"].size(), 5U);
+}
+
+// Far designs come first, and no place twice.
+TEST(MostUnlike, TakesTheCornersFirst) {
+    const std::vector<Gene> genes{{1, false}, {5, true}, {3, false}};
+    const std::vector<Genes> places{{0, 0, 0}, {0, 1, 0}, {0, 4, 0}, {0, 4, 1}, {0, 2, 2}};
+    using Positions = std::vector<std::size_t>;
+    EXPECT_EQ(most_unlike(genes, {{0, 0, 1}}, places, 2), (Positions{2, 4}));
+    EXPECT_EQ(most_unlike(genes, {}, places, 9).size(), 5U);
+    EXPECT_DOUBLE_EQ(likeness(genes, {0, 2, 1}, {0, 2, 1}), 1);
+    EXPECT_GT(likeness(genes, {0, 0, 0}, {0, 1, 0}), likeness(genes, {0, 0, 0}, {0, 4, 0}));
 }
 
 TEST(Evolution, RefusesWhatItCannotDo) {
@@ -316,22 +400,14 @@ TEST(Evolution, RefusesWhatItCannotDo) {
                        sentence);
         EXPECT_FALSE(fs::exists(folder / "out"));
     };
-    refuses({"--search", "luck"}, "halving");
-    refuses({"--search", "evolution", "--budget", "1"}, "--budget");
-    refuses({"--search", "evolution", "--rungs", "2"},
-            "--rungs is an option of the search by halving, so it needs --search halving.");
-    refuses({"--budget", "9"}, "so it needs --search evolution.");
-    refuses({"--population", "9"}, "so it needs --search evolution.");
-    refuses({"--search", "evolution", "--goals", "dram.bytes_read"}, "has an estimate");
-    refuses({"--search", "evolution", "--array-only"}, "the arrays alone");
-    refuses({"--search", "evolution", "--fidelity", "analytic", "--budget", "9"},
-            "--budget counts simulations");
-    refuses({"--search", "evolution", "--limits", "area_mm2<=baseline(degs-65)"}, "degs-65");
-    std::ofstream(folder / "space.yaml", std::ios::app) << "combine: one_at_a_time\n";
-    expect_mistake(degs(explore_words(folder / "space.yaml", folder / "out", kEvolution)),
-                   "varies one at a time");
-    expect_mistake(degs(explore_words(million_space(folder), folder / "out", {})),
-                   "at most 100 000");
+    refuses({"--budget", "1"}, "--budget");
+    refuses({"--fidelity", "analytic", "--budget", "9"}, "--budget counts simulations");
+    refuses({"--limits", "area_mm2<=baseline(degs-65)"}, "degs-65");
+    for (const char* former : {"--search", "--rungs", "--share", "--least"}) {
+        refuses({former, "2"}, "'" + std::string(former) +
+                                   "' is gone with the search by halving: leave it out, and say "
+                                   "with --budget how many");
+    }
 }
 
 } // namespace

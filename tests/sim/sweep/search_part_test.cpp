@@ -64,12 +64,12 @@ void expect_same_folder(const std::string& whole, const std::string& parts) {
     EXPECT_GE(compared, 7);
 }
 
-TEST(LongSearchParts, OfAnEvolutionAgreeWithOneProcess) {
+TEST(LongSearchParts, AgreeWithOneProcess) {
     const Folder folder;
     const std::string file = two_view_space(folder);
     expect_same_folder(folder / "whole", [&] {
-        EXPECT_EQ(degs(search_words(file, folder / "whole", kEvolution)).code, 0);
-        const std::vector<Outcome> two = explored_by(2, file, folder / "two", kEvolution);
+        EXPECT_EQ(degs(search_words(file, folder / "whole", kHalf)).code, 0);
+        const std::vector<Outcome> two = explored_by(2, file, folder / "two", kHalf);
         EXPECT_EQ(two[0].code, 0) << two[0].err;
         EXPECT_NE(two[0].out.find("24 designs estimated"), std::string::npos) << two[0].out;
         EXPECT_EQ(two[1].code, 0) << two[1].err;
@@ -79,17 +79,19 @@ TEST(LongSearchParts, OfAnEvolutionAgreeWithOneProcess) {
         EXPECT_NE(two[1].err.find(" done · "), std::string::npos);
         return folder / "two";
     }());
-    for (const Outcome& outcome : explored_by(3, file, folder / "three", kEvolution)) {
+    for (const Outcome& outcome : explored_by(3, file, folder / "three", kHalf)) {
         EXPECT_EQ(outcome.code, 0) << outcome.err;
     }
     expect_same_folder(folder / "whole", folder / "three");
 }
 
-TEST(LongSearchParts, OfAHalvingAgreeWithOneProcess) {
+// Without estimates nobody decides by what was not simulated by all.
+TEST(LongSearchParts, AgreeWithoutEstimates) {
     const Folder folder;
     const std::string file = two_view_space(folder);
-    EXPECT_EQ(degs(search_words(file, folder / "whole", {})).code, 0);
-    for (const Outcome& outcome : explored_by(2, file, folder / "two", {})) {
+    const Words options{"--array-only", "--budget", "8"};
+    EXPECT_EQ(degs(search_words(file, folder / "whole", options)).code, 0);
+    for (const Outcome& outcome : explored_by(2, file, folder / "two", options)) {
         EXPECT_EQ(outcome.code, 0) << outcome.err;
     }
     expect_same_folder(folder / "whole", folder / "two");
@@ -98,7 +100,7 @@ TEST(LongSearchParts, OfAHalvingAgreeWithOneProcess) {
 TEST(LongSearchParts, AgreeWhereDesignsFail) {
     const Folder folder;
     const std::string file = failing_space(folder);
-    const Words options{"--search", "evolution", "--budget", "7"};
+    const Words options{"--budget", "5"};
     const Outcome whole = degs(search_words(file, folder / "whole", options));
     EXPECT_NE(whole.code, 0);
     for (const Outcome& outcome : explored_by(2, file, folder / "two", options)) {
@@ -128,11 +130,11 @@ pid_t started_part(const Words& arguments) {
 TEST(LongSearchParts, AgreeWithOneProcessAfterOneWasKilled) {
     const Folder folder;
     const std::string file = two_view_space(folder);
-    EXPECT_EQ(degs(search_words(file, folder / "whole", kEvolution)).code, 0);
+    EXPECT_EQ(degs(search_words(file, folder / "whole", kHalf)).code, 0);
     const std::string out = folder / "two";
-    const pid_t killed = started_part(search_words(file, out, kEvolution, 2, 2));
-    auto first = std::async(std::launch::async,
-                            [&] { return degs(search_words(file, out, kEvolution, 1, 2)); });
+    const pid_t killed = started_part(search_words(file, out, kHalf, 2, 2));
+    auto first =
+        std::async(std::launch::async, [&] { return degs(search_words(file, out, kHalf, 1, 2)); });
     const auto made = [&out] { // simulated points
         std::error_code none;
         return std::distance(fs::directory_iterator(out + "/points", none),
@@ -146,7 +148,7 @@ TEST(LongSearchParts, AgreeWithOneProcessAfterOneWasKilled) {
     ::waitpid(killed, &status, 0);
     EXPECT_TRUE(WIFSIGNALED(status)) << "it was over before";
     EXPECT_EQ(first.wait_for(std::chrono::milliseconds(300)), std::future_status::timeout);
-    const Outcome again = degs(search_words(file, out, kEvolution, 2, 2));
+    const Outcome again = degs(search_words(file, out, kHalf, 2, 2));
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_EQ(again.out, "part 2 of 2 has ended; part 1 writes the results\n");
     const Outcome writer = first.get();
@@ -159,7 +161,7 @@ TEST(SearchParts, NameThePartsThatAreMissing) {
     const Folder folder;
     const std::string file = two_view_space(folder);
     const auto waits = [&](const Words& more) {
-        Words options = kEvolution;
+        Words options = kHalf;
         options.insert(options.end(), {"--patience", "0.01"});
         Words all = search_words(file, folder / "out", options);
         all.insert(all.end(), more.begin(), more.end());

@@ -9,7 +9,8 @@
 
 namespace degs::sim_test {
 
-inline const std::vector<std::string> kEvolution{"--search", "evolution", "--budget", "12"};
+/// Half of the designs of two_view_space().
+inline const std::vector<std::string> kHalf{"--budget", "12"};
 
 /// 24 designs on two views.
 inline std::string two_view_space(const Folder& folder) {

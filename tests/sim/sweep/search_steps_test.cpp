@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a search on made-up designs: who is bred, who is chosen, who goes on, and what is
-// told of it.
+// The steps of a search on made-up designs: who is bred, who is chosen, and what is told of it.
 #include <algorithm>
 
 #include <gmock/gmock.h>
@@ -8,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/search/breeding.hpp"
-#include "sim/search/halving.hpp"
 #include "sim/search/round_choice.hpp"
 #include "sim/search/search.hpp"
 #include "sim/search/search_record.hpp"
@@ -33,15 +31,15 @@ StudyPlan plan_of(std::size_t designs, const std::string& goals) {
 }
 
 /// Designs 0, 1, 2, ... with these values of the only goal.
-Rung rung_of(const std::vector<double>& goals) {
-    Rung rung;
+StepResults results_of(const std::vector<double>& goals) {
+    StepResults results;
     for (const double goal : goals) {
-        Candidate candidate{rung.candidates.size(), {}};
+        Candidate candidate{results.candidates.size(), {}};
         candidate.verdict.goals = {goal};
         candidate.verdict.judged = true;
-        rung.candidates.push_back(std::move(candidate));
+        results.candidates.push_back(std::move(candidate));
     }
-    return rung;
+    return results;
 }
 
 // Three designs of a front, of which only that in the middle has a crowd about it: it wins no
@@ -70,67 +68,43 @@ TEST(RoundChoice, TakesTheDoubtfulAmongEquals) {
     EXPECT_THAT(choose_round(facts, 1), ElementsAre(6));
 }
 
-TEST(Halving, TakesTheLeastNumberOn) {
-    const StudyPlan plan = plan_of(10, "latency_ms");
-    Halving halving(plan, {2, 100, 3});
-    EXPECT_EQ(halving.next()->variants.size(), 10U);
-    halving.take(rung_of({1, 9, 3, 8, 2, 7, 6, 5, 4, 10}));
-    EXPECT_THAT(halving.next()->variants, ElementsAre(0, 2, 4));
-}
-
-// A design that goes on is counted once; the median of two is between them.
+// The median of two is between them.
 TEST(SearchRecord, CountsDesignsAndErrors) {
     const StudyPlan plan = plan_of(3, "latency_ms");
     Search search;
-    search.rungs = {rung_of({1, 2, 4}), rung_of({1, 2})};
-    search.rungs.back().cycles = 5;
+    search.estimates = results_of({1, 2, 4});
+    search.results = results_of({1, 2});
+    search.results.cycles = 5;
     search.beliefs = {{0, 1, {1.02}}, {1, 1, {1.92}}, {2, 1, {4.0}}}; // the last was not simulated
     nlohmann::ordered_json json;
     put_record(plan, search, json);
-    EXPECT_EQ(json["search"]["simulated"], 3);
-    EXPECT_EQ(json["search"]["estimated"], 0);
+    EXPECT_EQ(json["search"]["simulated"], 2);
+    EXPECT_EQ(json["search"]["estimated"], 3);
     EXPECT_EQ(json["search"]["simulated_cycles"], 5);
     EXPECT_TRUE(json["beliefs"][2]["found"]["latency_ms"].is_null());
     EXPECT_THAT(record_text(plan, search),
                 HasSubstr("5 cycles simulated; beliefs of latency_ms were off by 3.00 % (median)"));
 }
 
-/// Asks for estimates of all designs, and then for their simulations.
-class TwoSteps : public Searcher {
-public:
-    std::optional<Step> next() override {
-        if (rungs_.size() == 2) {
-            return {};
-        }
-        Step step;
-        step.variants = {0, 1};
-        step.change.estimates = rungs_.empty();
-        step.folder = rungs_.empty() ? "estimates" : "";
-        return step;
-    }
-    void take(const Rung& rung) override { rungs_.push_back(rung); }
-    const std::vector<Rung>& rungs() const override { return rungs_; }
-    Facts facts() const override { return {}; }
-
-private:
-    std::vector<Rung> rungs_;
-};
-
 TEST(SearchCycles, AreThoseOfSimulationsAlone) {
     const sim_test::Folder folder;
-    std::ofstream(folder / "s.yaml")
-        << "designs:\n  - include: " << sim_test::config("degs-16")
-        << "\n    name: a\n  - include: " << sim_test::config("degs-64")
-        << "\n    name: b\nscenes: synthetic:object,gaussians=10\n"
-           "width: 16\nreference: false\ngoals: latency_ms\n";
-    const StudyPlan plan = plan_study(read_study(folder / "s.yaml"));
-    TwoSteps steps;
+    std::ofstream(folder / "s.yaml") << "designs:\n  - include: " << sim_test::config("degs-64")
+                                     << "\n    name: a\naxes:\n  span.count: [4, 8, 16]\n"
+                                        "scenes: synthetic:object,gaussians=10\n"
+                                        "width: 16\nreference: false\ngoals: latency_ms\n";
+    const Study study = read_study(folder / "s.yaml");
+    StudyPlan plan = plan_views(study);
+    DesignSpace space(study, plan);
+    space.add_baseline();
+    EvolutionOptions options;
+    options.budget = 2;
+    Evolution evolution(space, plan, options);
     SearchPart alone;
     std::optional<Failure> failure;
-    const Search found = search(plan, steps, alone, folder / "out", failure);
-    ASSERT_EQ(found.rungs.size(), 2U);
-    EXPECT_EQ(found.rungs[0].candidates.size(), 2U);
-    EXPECT_EQ(found.rungs[0].cycles, 0);
+    const std::optional<Search> found = search(plan, evolution, alone, folder / "out", failure);
+    ASSERT_TRUE(found && found->estimates);
+    EXPECT_EQ(found->estimates->candidates.size(), 3U);
+    EXPECT_EQ(found->estimates->cycles, 0);
     const auto written = nlohmann::json::parse(sim_test::read_file(folder / "out/results.json"));
     double cycles = 0;
     for (const auto& run : written["runs"]) {
@@ -138,7 +112,7 @@ TEST(SearchCycles, AreThoseOfSimulationsAlone) {
         cycles += run["cycles"].get<double>();
     }
     EXPECT_EQ(written["runs"].size(), 2U);
-    EXPECT_EQ(found.rungs[1].cycles, cycles);
+    EXPECT_EQ(found->results.cycles, cycles);
 }
 
 // Once is enough: what another part has found to fail is not run again.

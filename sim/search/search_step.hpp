@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who decides which designs a search runs next.
+// What a search runs next, and what it has found.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/goals/judgement.hpp"
@@ -16,21 +18,20 @@ namespace degs::sim {
 /// Designs that are run together.
 struct Step {
     std::vector<std::size_t> variants; ///< of the whole plan, in ascending order, with the baseline
-    PartChange change;
+    PartRuns runs = PartRuns::AsPlanned;
     std::string folder;  ///< below that of the search; empty: the folder itself
     bool results = true; ///< whether the folder gets tables and a page of these designs
     std::string spent{}; ///< so far, for the page, which adds the simulated cycles: "9 simulated"
 };
 
-/// A design in a rung.
+/// A design in a step.
 struct Candidate {
     std::size_t variant = 0; ///< of the whole plan
-    DesignVerdict verdict{}; ///< among the designs of its rung; estimates may lack goals
+    DesignVerdict verdict{}; ///< among the designs of its step; estimates may lack goals
 };
 
 /// Designs that are compared with each other: what a step has found.
-struct Rung {
-    PartChange change;
+struct StepResults {
     std::vector<Candidate> candidates;
     std::vector<FailedRun> failed;
     std::vector<std::string> warnings{}; ///< of the runs, each once
@@ -44,28 +45,14 @@ struct Belief {
     std::vector<std::optional<double>> goals; ///< empty: there was neither estimate nor neighbour
 };
 
-class Searcher {
-public:
-    Searcher() = default;
-    Searcher(const Searcher&) = delete;
-    Searcher& operator=(const Searcher&) = delete;
-    virtual ~Searcher() = default;
-
-    /// What to run next; empty at the end.
-    virtual std::optional<Step> next() = 0;
-    /// What that found, before next() is asked again.
-    virtual void take(const Rung& rung) = 0;
-    /// The results of the search: the rung that was asked for last. Valid after the end.
-    virtual const std::vector<Rung>& rungs() const = 0;
-    /// What it believed of the designs that it simulated; a search may believe nothing.
-    virtual std::vector<Belief> beliefs() const { return {}; }
-    /// What the search was given, such as {"budget", 40}, and how it ended.
-    struct Facts {
-        std::string method;
-        std::vector<std::pair<std::string, std::uint64_t>> options;
-        std::string end; ///< why it ended: a sentence, or empty
-    };
-    virtual Facts facts() const = 0;
+/// What a search has found.
+struct Search {
+    std::optional<StepResults> estimates; ///< empty: there are none, or they are the results
+    StepResults results;                  ///< of what the plan asks for
+    std::vector<Belief> beliefs;          ///< of the designs that were simulated
+    std::vector<std::pair<std::string, std::uint64_t>> options; ///< such as {"budget", 40}
+    std::string no_estimates; ///< why nothing was estimated: a sentence, or empty
+    std::string end;          ///< why it ended: a sentence, or empty
 };
 
 /// By how much a design misses the limits, and a little for one that only touches them; 0: nothing.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/search/searcher.hpp"
+#include "sim/search/search_step.hpp"
 
 #include <algorithm>
 #include <limits>
