@@ -212,19 +212,22 @@ TEST(ChildProcessDeathTest, DoesNotRunTheParentsExitOrBuffers) {
     }
 }
 
-/// Starts a parent with two sleeping children, does `act` to it, returns how it ended. The children
-/// leave "late" in the folder if they are allowed to live on.
+/// Starts a parent with two waiting children, does `act` to it, returns how it ended. The children
+/// leave "late" in the folder if they live on when the parent has ended.
 int end_of_parent(const Folder& folder, const std::function<void(pid_t)>& act) {
     const pid_t program = ::fork();
     if (program == 0) {
-        const auto sleep_and_tell = [&folder]() -> std::string {
+        const auto wait_and_tell = [&folder]() -> std::string {
             std::ofstream(folder / ("started" + std::to_string(::getpid())));
-            ::sleep(2);
+            const Stopwatch clock;
+            while (!exists(folder / "ended") && clock.seconds() < 30) {
+                ::usleep(10000);
+            }
             std::ofstream(folder / "late");
             return "";
         };
-        const Children result = run_children(
-            {{"a", [] { return ""; }}, {"b", sleep_and_tell}, {"c", sleep_and_tell}}, 2);
+        const Children result =
+            run_children({{"a", [] { return ""; }}, {"b", wait_and_tell}, {"c", wait_and_tell}}, 2);
         ::_exit(!result.complete && result.outcomes.size() == 1 ? interruption_code() : 1);
     }
     const Stopwatch clock;
@@ -238,7 +241,8 @@ int end_of_parent(const Folder& folder, const std::function<void(pid_t)>& act) {
     int status = 0;
     ::waitpid(program, &status, 0);
     EXPECT_LT(clock.seconds(), 20);
-    ::sleep(3);
+    std::ofstream(folder / "ended");
+    ::sleep(1);
     EXPECT_FALSE(exists(folder / "late"));
     return status;
 }
