@@ -27,6 +27,7 @@ find_package(ZLIB REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(ZIP REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy) # vectors of every instruction set
 find_package(TinyGLTF CONFIG REQUIRED)
 find_package(yaml-cpp CONFIG REQUIRED)
 

@@ -6,7 +6,7 @@ target_compile_features(degs_flags INTERFACE cxx_std_17)
 # No contraction: results must not depend on whether the machine has fused multiply-add. For the
 # same reason the baseline architecture is a fixed one, never -march=native; x86-64-v2 (2009:
 # popcnt, SSE4) saves 10 % of a run and has no fused multiply-add. Wider lanes are chosen at run
-# time (blend_lanes.cpp). slp-vectorize: g++ 12.2 drops the rounding of neighbouring double -> float
+# time (*_lanes.cpp). slp-vectorize: g++ 12.2 drops the rounding of neighbouring double -> float
 # -> double conversions. psabi: vector lanes are passed between our own functions only, all compiled
 # with the same flags.
 set(DEGS_ARCH "" CACHE STRING "Value of -march; empty: x86-64-v2 on x86-64, else the compiler's default")
@@ -41,10 +41,12 @@ function(degs_library room)
     set(scope PUBLIC)
     if(sources)
         add_library(degs_${room} STATIC ${sources})
-        # Kernels per instruction set: macros and pragmas that nobody else may see.
+        # Kernels, which Highway compiles once per instruction set: it includes the source anew. Its
+        # SSE4 would ask for AES instructions, which they do not use and x86-64-v2 does not have.
         set(lanes ${sources})
         list(FILTER lanes INCLUDE REGEX "_lanes\\.cpp$")
-        set_source_files_properties(${lanes} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+        set_source_files_properties(${lanes} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+                                    COMPILE_DEFINITIONS HWY_DISABLE_PCLMUL_AES)
         target_link_libraries(degs_${room} PRIVATE $<BUILD_INTERFACE:degs_flags>)
     else()
         set(scope INTERFACE)

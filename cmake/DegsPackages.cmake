@@ -26,8 +26,8 @@ set(CPACK_DEBIAN_COMMON_DESCRIPTION "Configurations of the DeGS model of 3D Gaus
 set(CPACK_DEBIAN_DEGS_PACKAGE_NAME libdegs-dev)
 set(CPACK_DEBIAN_DEGS_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEGS_PACKAGE_DEPENDS "degs-common ${same_version}, pkg-config, libsystemc-dev, libglm-dev, \
-libopenexr-dev, libpng-dev, zlib1g-dev, libzstd-dev, libzip-dev, libwebp-dev, libtinygltf-dev, libyaml-cpp-dev, \
-nlohmann-json3-dev")
+libopenexr-dev, libpng-dev, zlib1g-dev, libzstd-dev, libzip-dev, libwebp-dev, libhwy-dev, libtinygltf-dev, \
+libyaml-cpp-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_DEGS_DESCRIPTION "SystemC/TLM model of the DeGS accelerator, as a library
  Headers, static libraries, the driver and examples for platforms in SystemC.")
 

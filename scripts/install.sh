@@ -6,7 +6,7 @@ set -euo pipefail
 
 packages=(
     g++ cmake ninja-build pkg-config
-    libsystemc-dev libglm-dev libopenexr-dev libpng-dev zlib1g-dev libzstd-dev libzip-dev libwebp-dev
+    libsystemc-dev libglm-dev libopenexr-dev libpng-dev zlib1g-dev libzstd-dev libzip-dev libwebp-dev libhwy-dev
     libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinygltf-dev libxxhash-dev libpugixml-dev
     libjemalloc-dev
 )

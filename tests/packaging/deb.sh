@@ -31,11 +31,11 @@ for name in "${names[@]}"; do
     grep -q "^Inst $name (" "$work/log" || { echo "$name would not be installed:"; cat "$work/log"; exit 1; }
 done
 field() { dpkg-deb -f "$work/debs/$1"_*.deb "$2"; }
-for library in libc6 libjemalloc2 libsystemc libopenexr-3 libtinygltf libyaml-cpp0; do
+for library in libc6 libhwy1 libjemalloc2 libsystemc libopenexr-3 libtinygltf libyaml-cpp0; do
     [[ $(field degs Depends) == *"$library"* ]] || { echo "degs does not depend on $library: $(field degs Depends)"; exit 1; }
 done
 # The library asks for what the CMake package of the build looks for.
-sed -n 's/^find_dependency(\([A-Za-z_-]*\).*/\1/p; s/.*foreach(codec \(.*\))/\1/p' "$build/degsConfig.cmake" |
+sed -n 's/^find_dependency(\([A-Za-z_-]*\).*/\1/p; s/.*foreach(library \(.*\))/\1/p' "$build/degsConfig.cmake" |
     tr ' ' '\n' | tr '[:upper:]' '[:lower:]' | grep -v threads | cat - <(printf '%s\n' systemc glm) | while read -r needed; do
     [[ $(field libdegs-dev Depends | tr -d -) == *"${needed//[-_]/}"* ]] || { echo "libdegs-dev does not depend on $needed"; exit 1; }
 done

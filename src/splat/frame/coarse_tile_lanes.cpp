@@ -1,108 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a CoarseTile does for four rows, or for four samples of a row, at a time. The steps of each
 // are those of a single one, so that results do not depend on the instruction set.
-#include <cmath>
 #include <cstdint>
-#include <cstring>
 
-#ifdef __SSE4_1__
-#include <smmintrin.h>
-#endif
+#include <hwy/highway.h>
 
 #include "splat/frame/coarse_tile.hpp"
 #include "splat/frame/fast_exp.hpp"
 #include "splat/frame/pixel_rules.hpp"
 
+HWY_BEFORE_NAMESPACE();
 namespace degs {
-
-namespace {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kLanes = CoarseTile::kLanes;
-#include "splat/numbers/lanes.inc"
+constexpr hn::FixedTag<float, kLanes> kFloats;
+constexpr hn::FixedTag<std::int32_t, kLanes> kIntegers;
+using Floats = hn::Vec<decltype(kFloats)>;
+using Mask = hn::Mask<decltype(kFloats)>;
 
-FloatLanes all(float value) {
-    return FloatLanes{} + value;
+HWY_INLINE Floats all(float value) {
+    return hn::Set(kFloats, value);
 }
-FloatLanes load(const float* from) {
-    FloatLanes lanes;
-    std::memcpy(&lanes, from, sizeof lanes);
-    return lanes;
+/// Bit i of the result: lane i.
+HWY_INLINE std::uint32_t bits(const Mask& lanes) {
+    std::uint8_t bits[8];
+    hn::StoreMaskBits(kFloats, lanes, bits);
+    return bits[0];
 }
-FloatLanes floats(const IntLanes& lanes) {
-    return __builtin_convertvector(lanes, FloatLanes);
-}
-IntLanes integers(const FloatLanes& lanes) {
-    return __builtin_convertvector(lanes, IntLanes);
-}
-
-#ifdef __SSE4_1__
-FloatLanes square_root(const FloatLanes& x) {
-    return same_bits<FloatLanes>(_mm_sqrt_ps(same_bits<__m128>(x)));
-}
-FloatLanes up(const FloatLanes& x) {
-    return same_bits<FloatLanes>(_mm_ceil_ps(same_bits<__m128>(x)));
-}
-FloatLanes down(const FloatLanes& x) {
-    return same_bits<FloatLanes>(_mm_floor_ps(same_bits<__m128>(x)));
-}
-/// Bit i of the result is the sign of lane i.
-std::uint32_t bits(const IntLanes& lanes) {
-    return static_cast<std::uint32_t>(_mm_movemask_ps(same_bits<__m128>(lanes)));
-}
-#else
-template <class Function>
-FloatLanes each(const FloatLanes& x, const Function& function) {
-    FloatLanes result;
-    for (int i = 0; i < kLanes; ++i) {
-        result[i] = function(x[i]);
-    }
-    return result;
-}
-FloatLanes square_root(const FloatLanes& x) {
-    return each(x, [](float value) { return std::sqrt(value); });
-}
-FloatLanes up(const FloatLanes& x) {
-    return each(x, [](float value) { return std::ceil(value); });
-}
-FloatLanes down(const FloatLanes& x) {
-    return each(x, [](float value) { return std::floor(value); });
-}
-/// Bit i of the result is the sign of lane i.
-std::uint32_t bits(const IntLanes& lanes) {
-    return lane_mask(lanes);
-}
-#endif
 
 /// fast_exp().
-FloatLanes exponential(const FloatLanes& x) {
-    const FloatLanes product = x * 1.44269504F;
-    const FloatLanes power = product < -126.0F ? all(-126.0F) : product;
-    const IntLanes whole = integers(power - 0.999999F);
-    const FloatLanes rest = power - floats(whole);
-    const FloatLanes mantissa =
-        1.0F + rest * (0.69583354F + rest * (0.22606716F + rest * 0.07809929F));
-    return same_bits<FloatLanes>(same_bits<IntLanes>(mantissa) + whole * (std::int32_t{1} << 23));
+HWY_INLINE Floats fast_exponential(const Floats& x) {
+    const Floats product = x * all(1.44269504F);
+    const Floats power = hn::IfThenElse(product < all(-126.0F), all(-126.0F), product);
+    const Floats whole = hn::Trunc(power - all(0.999999F));
+    const Floats rest = power - whole;
+    const Floats mantissa =
+        all(1.0F) + rest * (all(0.69583354F) + rest * (all(0.22606716F) + rest * all(0.07809929F)));
+    const auto exponent = hn::BitCast(kIntegers, whole + all(0x1.8p23F)); // in its lowest bits
+    return hn::BitCast(kFloats, hn::BitCast(kIntegers, mantissa) + hn::ShiftLeft<23>(exponent));
 }
 
-} // namespace
+} // namespace HWY_NAMESPACE
+
+using namespace HWY_NAMESPACE;
 
 void CoarseTile::solve_rows() {
-    const FloatLanes least = all(static_cast<float>(columns_.first));
-    const FloatLanes most = all(static_cast<float>(columns_.last));
-    const FloatLanes beyond = all(static_cast<float>(options_.delta));
+    const Floats least = all(static_cast<float>(columns_.first));
+    const Floats most = all(static_cast<float>(columns_.last));
+    const Floats beyond = all(static_cast<float>(options_.delta));
     CoarseSpan* span = spans_.data();
     for (int r = first_sampled(); r < end_sampled(); r += kLanes) {
-        const FloatLanes dy = load(&row_values_[r]) - mu_y_;
-        const FloatLanes rest = threshold_ - dy * dy * inverse_c_;
-        const FloatLanes centre = mu_x_ + slope_ * dy;
-        const FloatLanes reach = square_root(rest * det_over_c_);
-        const FloatLanes low = centre - reach, high = centre + reach;
-        FloatLanes left = options_.outward ? down(low) - beyond : up(low);
-        FloatLanes right = options_.outward ? up(high) + beyond : down(high);
-        left = left < least ? least : left;
-        right = most < right ? most : right;
-        const IntLanes first = integers(left), last = integers(right);
-        std::uint32_t met = bits((rest >= 0.0F) & (left <= right));
+        const Floats dy = hn::LoadU(kFloats, &row_values_[r]) - all(mu_y_);
+        const Floats rest = all(threshold_) - dy * dy * all(inverse_c_);
+        const Floats centre = all(mu_x_) + all(slope_) * dy;
+        const Floats reach = hn::Sqrt(rest * all(det_over_c_));
+        const Floats low = centre - reach, high = centre + reach;
+        Floats left = options_.outward ? hn::Floor(low) - beyond : hn::Ceil(low);
+        Floats right = options_.outward ? hn::Ceil(high) + beyond : hn::Floor(high);
+        left = hn::IfThenElse(left < least, least, left);
+        right = hn::IfThenElse(most < right, most, right);
+        std::int32_t first[kLanes], last[kLanes];
+        hn::StoreU(hn::ConvertTo(kIntegers, left), kIntegers, first);
+        hn::StoreU(hn::ConvertTo(kIntegers, right), kIntegers, last);
+        std::uint32_t met = bits(hn::And(rest >= all(0.0F), left <= right));
         if (end_sampled() - r < kLanes) {
             met &= (1U << (end_sampled() - r)) - 1;
         }
@@ -115,31 +77,33 @@ void CoarseTile::solve_rows() {
 }
 
 void CoarseTile::blend() {
-    const IntLanes lane = counting<IntLanes>();
     for (const CoarseSpan& span : spans()) {
         const Samples in = samples_in(span);
         float* const row = transmittance_of(span.row);
         const float dy = static_cast<float>(span.row) - mu_y_;
-        const float q_row = dy * dy * inverse_c_;
-        const float start = static_cast<float>(phase_of(span.row)) - (mu_x_ + slope_ * dy);
+        const Floats q_row = all(dy * dy * inverse_c_);
+        const Floats start = all(static_cast<float>(phase_of(span.row)) - (mu_x_ + slope_ * dy));
+        const Floats first = all(static_cast<float>(in.first));
+        const Floats last = all(static_cast<float>(in.last));
         for (int i = in.first / kLanes * kLanes; i <= in.last; i += kLanes) {
-            const IntLanes sample = lane + i;
-            const FloatLanes before = load(row + i);
-            const FloatLanes dx = start + floats(sample * kApart);
-            const FloatLanes q = conic_a_ * dx * dx + q_row;
-            const IntLanes inside =
-                (before != 0.0F) & (q <= threshold_) & (sample >= in.first) & (sample <= in.last);
+            const Floats sample = hn::Iota(kFloats, 0.0F) + all(static_cast<float>(i));
+            const Floats before = hn::LoadU(kFloats, row + i);
+            const Floats dx = start + sample * all(kApart);
+            const Floats q = all(conic_a_) * dx * dx + q_row;
+            const Mask in_span = hn::And(sample >= first, sample <= last);
+            const Mask inside =
+                hn::And(in_span, hn::And(before != all(0.0F), q <= all(threshold_)));
             const std::uint32_t tested = bits(inside);
             if (tested == 0) {
                 continue;
             }
-            const FloatLanes unlimited = opacity_ * exponential(-0.5F * q);
-            const FloatLanes limit = all(static_cast<float>(kAlphaMax));
-            const FloatLanes alpha = unlimited < limit ? unlimited : limit;
-            const FloatLanes rest = before * (1.0F - alpha);
-            const IntLanes alive = rest >= static_cast<float>(kStopTransmittance);
-            const FloatLanes after = chosen(inside, chosen(alive, rest, FloatLanes{}), before);
-            std::memcpy(row + i, &after, sizeof after);
+            const Floats unlimited = all(opacity_) * fast_exponential(all(-0.5F) * q);
+            const Floats limit = all(static_cast<float>(kAlphaMax));
+            const Floats alpha = hn::IfThenElse(unlimited < limit, unlimited, limit);
+            const Floats rest = before * (all(1.0F) - alpha);
+            const Mask alive = rest >= all(static_cast<float>(kStopTransmittance));
+            const Floats after = hn::IfThenElseZero(alive, rest);
+            hn::StoreU(hn::IfThenElse(inside, after, before), kFloats, row + i);
             std::uint32_t ended = tested & ~bits(alive);
             blended_ += __builtin_popcount(tested ^ ended);
             for (; ended != 0; ended &= ended - 1) {
@@ -150,3 +114,4 @@ void CoarseTile::blend() {
 }
 
 } // namespace degs
+HWY_AFTER_NAMESPACE();

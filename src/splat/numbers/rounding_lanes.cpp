@@ -2,33 +2,48 @@
 // Rounding of float arrays, once per instruction set.
 #include <cstring>
 
-#include "splat/numbers/instruction_set.hpp"
 #include "splat/numbers/number_format.hpp"
 
-#ifdef DEGS_HAS_WIDE_LANES
-#include <immintrin.h>
-#endif
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "splat/numbers/rounding_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace degs::HWY_NAMESPACE {
+#include "splat/numbers/rounding.inc"
+
+/// Whole vectors first; the rest goes through a copy, so that every value takes the same way.
+void round_array(const LaneRounding& to, float* values, std::size_t count) {
+    constexpr std::size_t kStep = kLanes<float>;
+    const Tag<float> lanes;
+    const LaneRounding constants = to; // a copy, which the stores below cannot change
+    const std::size_t whole = count / kStep * kStep;
+    for (std::size_t i = 0; i < whole; i += kStep) {
+        hn::StoreU(round_lanes(hn::LoadU(lanes, values + i), constants), lanes, values + i);
+    }
+    float rest[kStep] = {};
+    std::memcpy(rest, values + whole, (count - whole) * sizeof(float));
+    hn::StoreU(round_lanes(hn::LoadU(lanes, rest), constants), lanes, rest);
+    std::memcpy(values + whole, rest, (count - whole) * sizeof(float));
+}
+
+RoundFunction rounder() {
+    return &round_array;
+}
+
+} // namespace degs::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "splat/numbers/instruction_set.hpp"
 
 namespace degs {
-namespace narrow_rounding {
-constexpr int kLanes = 4;
-#include "splat/numbers/rounding.inc"
-} // namespace narrow_rounding
-
-#ifdef DEGS_HAS_WIDE_LANES
-#pragma GCC push_options
-#pragma GCC target("avx2")
-namespace wide_rounding {
-constexpr int kLanes = 8;
-#include "splat/numbers/rounding.inc" // NOLINT(readability-duplicate-include)
-} // namespace wide_rounding
-#pragma GCC pop_options
-#else
-namespace wide_rounding = narrow_rounding;
-#endif
+HWY_EXPORT(rounder);
 
 std::vector<RoundFunction> round_variants() {
-    return runnable<RoundFunction>({&narrow_rounding::round_array, &wide_rounding::round_array});
+    return of_all_targets([] { return HWY_DYNAMIC_DISPATCH(rounder)(); });
 }
 
 } // namespace degs
+#endif

@@ -2,83 +2,104 @@
 #include "splat/pixels/blend_lanes.hpp"
 
 #include <cmath>
-#include <cstring>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "splat/pixels/blend_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace degs::HWY_NAMESPACE {
+#include "splat/pixels/blend_kernel.inc"
+#include "splat/pixels/rasterise_kernel.inc"
+
+BlendFunction<float> blend() {
+    return &blend_run<float>;
+}
+TestFunction<float> test() {
+    return &test_rows<float>;
+}
+ProductFunction<float> product() {
+    return &product_rows<float>;
+}
+RasteriseFunction rasterise() {
+    return &rasterise_rows;
+}
+
+// The reference, for the least instruction set alone.
+#if HWY_ONCE
+BlendFunction<double> blend_double() {
+    return &blend_run<double>;
+}
+TestFunction<double> test_double() {
+    return &test_rows<double>;
+}
+ProductFunction<double> product_double() {
+    return &product_rows<double>;
+}
+float exponential_of(float x) {
+    return hn::GetLane(exponential(all(x)));
+}
+#endif
+} // namespace degs::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include "splat/numbers/instruction_set.hpp"
 
-#ifdef DEGS_HAS_WIDE_LANES
-#include <immintrin.h>
-#endif
-
 namespace degs {
-namespace narrow {
-constexpr int kLanes = 4;
-#include "splat/pixels/blend_kernel.inc"
-#include "splat/pixels/rasterise_kernel.inc"
-} // namespace narrow
-
-#ifdef DEGS_HAS_WIDE_LANES
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#define DEGS_WIDE_MOVEMASK
-namespace wide {
-constexpr int kLanes = 8;
-#include "splat/pixels/blend_kernel.inc"
-#include "splat/pixels/rasterise_kernel.inc"
-} // namespace wide
-#undef DEGS_WIDE_MOVEMASK
-#pragma GCC pop_options
-#else
-namespace wide = narrow;
-#endif
+HWY_EXPORT(blend);
+HWY_EXPORT(test);
+HWY_EXPORT(product);
+HWY_EXPORT(rasterise);
 
 std::vector<BlendFunction<float>> blend_variants() {
-    return runnable<BlendFunction<float>>({&narrow::blend_float, &wide::blend_float});
+    return of_all_targets([] { return HWY_DYNAMIC_DISPATCH(blend)(); });
 }
 
 std::vector<TestFunction<float>> test_variants() {
-    return runnable<TestFunction<float>>({&narrow::test_float, &wide::test_float});
+    return of_all_targets([] { return HWY_DYNAMIC_DISPATCH(test)(); });
 }
 
 std::vector<ProductFunction<float>> product_variants() {
-    return runnable<ProductFunction<float>>({&narrow::product_float, &wide::product_float});
+    return of_all_targets([] { return HWY_DYNAMIC_DISPATCH(product)(); });
 }
 
 std::vector<RasteriseFunction> rasterise_variants() {
-    return runnable<RasteriseFunction>({&narrow::rasterise_float, &wide::rasterise_float});
+    return of_all_targets([] { return HWY_DYNAMIC_DISPATCH(rasterise)(); });
 }
 
 RasteriseFunction rasterise_function() {
-    return rasterise_variants().back();
+    return HWY_DYNAMIC_DISPATCH(rasterise)();
 }
 
 BlendFunction<float> blend_function(float /*type*/) {
-    return blend_variants().back();
+    return HWY_DYNAMIC_DISPATCH(blend)();
 }
 
 BlendFunction<double> blend_function(double /*type*/) {
-    return &narrow::blend_double;
+    return HWY_STATIC_DISPATCH(blend_double)();
 }
 
 TestFunction<float> test_function(float /*type*/) {
-    return test_variants().back();
+    return HWY_DYNAMIC_DISPATCH(test)();
 }
 
 TestFunction<double> test_function(double /*type*/) {
-    return &narrow::test_double;
+    return HWY_STATIC_DISPATCH(test_double)();
 }
 
 ProductFunction<float> product_function(float /*type*/) {
-    return product_variants().back();
+    return HWY_DYNAMIC_DISPATCH(product)();
 }
 
 ProductFunction<double> product_function(double /*type*/) {
-    return &narrow::product_double;
+    return HWY_STATIC_DISPATCH(product_double)();
 }
 
 float lane_exp(float x) {
-    narrow::Lanes<float>::Value lanes{};
-    return narrow::exponential(lanes + x)[0];
+    return HWY_STATIC_DISPATCH(exponential_of)(x);
 }
 
 } // namespace degs
+#endif

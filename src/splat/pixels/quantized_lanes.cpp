@@ -7,101 +7,51 @@
 #include <limits>
 
 #include "degs/error.hpp"
-#include "splat/numbers/instruction_set.hpp"
 
-#ifdef DEGS_HAS_WIDE_LANES
-#include <immintrin.h>
-#endif
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "splat/pixels/quantized_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
+#ifndef DEGS_QUANTIZED_LANES
+#define DEGS_QUANTIZED_LANES // this file is read once per instruction set
 namespace degs {
 namespace {
 /// Tables of up to as many cells may be looked up in registers; LaneNumbers pads them to it.
 constexpr int kFewCells = 16;
+
+/// Both functions of a PE.
+struct Variant {
+    QuantizedBlendFunction blend;
+    QuantizedTestFunction test;
+};
 } // namespace
-
-namespace narrow_numbers {
-constexpr int kLanes = 4;
-#include "splat/numbers/rounding.inc"
-using Value = FloatLanes;
-using Bits = IntLanes;
-inline Value floor_lanes(const Value& x) {
-    const Value cut = __builtin_convertvector(__builtin_convertvector(x, Bits), Value);
-    return cut > x ? cut - 1.0F : cut;
-}
-inline Value look_up(const float* table, const Bits& cell, bool /*few*/) {
-    return Value{table[cell[0]], table[cell[1]], table[cell[2]], table[cell[3]]};
-}
-inline Value round_half(const Value& x, const LaneRounding& to) {
-    return round_lanes<Value, Bits>(x, to);
-}
-#include "splat/pixels/quantized_kernel.inc"
-} // namespace narrow_numbers
-
-#ifdef DEGS_HAS_WIDE_LANES
-#pragma GCC push_options
-#pragma GCC target("avx2,f16c")
-#define DEGS_WIDE_MOVEMASK
-namespace wide_numbers {
-constexpr int kLanes = 8;
-#include "splat/numbers/rounding.inc"
-using Value = FloatLanes;
-using Bits = IntLanes;
-inline Value floor_lanes(const Value& x) {
-    return same_bits<Value>(_mm256_floor_ps(same_bits<__m256>(x)));
-}
-inline Value look_up(const float* table, const Bits& cell, bool few) {
-    const auto cells = same_bits<__m256i>(cell);
-    if (!few) {
-        return same_bits<Value>(_mm256_i32gather_ps(table, cells, 4));
-    }
-    const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), cells);
-    const __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), cells);
-    const __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(cells, 28)); // bit 3 as sign
-    return same_bits<Value>(_mm256_blendv_ps(low, high, is_high));
-}
-inline Value round_half(const Value& x, const LaneRounding& /*fp16*/) {
-    const __m128i halves = _mm256_cvtps_ph(same_bits<__m256>(x), _MM_FROUND_TO_NEAREST_INT);
-    return same_bits<Value>(_mm256_cvtph_ps(halves));
-}
-#include "splat/pixels/quantized_kernel.inc"
-} // namespace wide_numbers
-#pragma GCC pop_options
-
-// A segment of 16 px in one block, a table of 16 cells in one register.
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
-#define DEGS_WIDEST_MOVEMASK
-namespace widest_numbers {
-constexpr int kLanes = 16;
-#include "splat/numbers/rounding.inc"
-using Value = FloatLanes;
-using Bits = IntLanes;
-// The forms that zero what a mask leaves out: g++ 12 takes those without a mask for uninitialised.
-constexpr __mmask16 kAllLanes = 0xFFFF;
-inline Value floor_lanes(const Value& x) {
-    return same_bits<Value>(_mm512_maskz_roundscale_ps(kAllLanes, same_bits<__m512>(x),
-                                                       _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
-}
-inline Value look_up(const float* table, const Bits& cell, bool few) {
-    const auto cells = same_bits<__m512i>(cell);
-    return same_bits<Value>(
-        few ? _mm512_maskz_permutexvar_ps(kAllLanes, cells, _mm512_loadu_ps(table))
-            : _mm512_mask_i32gather_ps(_mm512_setzero_ps(), kAllLanes, cells, table, 4));
-}
-inline Value round_half(const Value& x, const LaneRounding& /*fp16*/) {
-    const __m256i halves =
-        _mm512_maskz_cvtps_ph(kAllLanes, same_bits<__m512>(x), _MM_FROUND_TO_NEAREST_INT);
-    return same_bits<Value>(_mm512_maskz_cvtph_ps(kAllLanes, halves));
-}
-#include "splat/pixels/quantized_kernel.inc"
-} // namespace widest_numbers
-#undef DEGS_WIDEST_MOVEMASK
-#undef DEGS_WIDE_MOVEMASK
-#pragma GCC pop_options
-#else
-namespace wide_numbers = narrow_numbers;
-namespace widest_numbers = narrow_numbers;
+} // namespace degs
 #endif
+
+HWY_BEFORE_NAMESPACE();
+namespace degs::HWY_NAMESPACE {
+#include "splat/pixels/quantized_kernel.inc"
+
+Variant variant(LaneFamily family) {
+    switch (family) {
+    case LaneFamily::Fixed:
+        return {&blend_run<LaneFamily::Fixed>, &test_run<LaneFamily::Fixed>};
+    case LaneFamily::Half:
+        return {&blend_run<LaneFamily::Half>, &test_run<LaneFamily::Half>};
+    case LaneFamily::Any:
+        break;
+    }
+    return {&blend_run<LaneFamily::Any>, &test_run<LaneFamily::Any>};
+}
+} // namespace degs::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "splat/numbers/instruction_set.hpp"
+
+namespace degs {
+HWY_EXPORT(variant);
 
 namespace {
 
@@ -136,32 +86,6 @@ LaneFamily family_of(const NumberSet& set) {
         fixed && set.term.has_sign && set.weight.max() > 0.995 && set.exp.values.max() >= 1 &&
         (set.exp.reduction == Reduction::Binary || set.exp.interpolation == Interpolation::Nearest);
     return halves ? LaneFamily::Half : fixed ? LaneFamily::Fixed : LaneFamily::Any;
-}
-
-/// Both functions of a PE.
-struct Variant {
-    QuantizedBlendFunction blend;
-    QuantizedTestFunction test;
-};
-
-template <LaneFamily family>
-std::vector<Variant> variants_of() {
-    return runnable<Variant>(
-        {{&narrow_numbers::blend_run<family>, &narrow_numbers::test_run<family>},
-         {&wide_numbers::blend_run<family>, &wide_numbers::test_run<family>},
-         {&widest_numbers::blend_run<family>, &widest_numbers::test_run<family>}});
-}
-
-std::vector<Variant> variants(LaneFamily family) {
-    switch (family) {
-    case LaneFamily::Fixed:
-        return variants_of<LaneFamily::Fixed>();
-    case LaneFamily::Half:
-        return variants_of<LaneFamily::Half>();
-    case LaneFamily::Any:
-        break;
-    }
-    return variants_of<LaneFamily::Any>();
 }
 
 } // namespace
@@ -212,27 +136,20 @@ LaneNumbers::LaneNumbers(const NumberSet& set)
 }
 
 std::vector<QuantizedBlendFunction> quantized_blend_variants(LaneFamily family) {
-    std::vector<QuantizedBlendFunction> functions;
-    for (const Variant& variant : variants(family)) {
-        functions.push_back(variant.blend);
-    }
-    return functions;
+    return of_all_targets([family] { return HWY_DYNAMIC_DISPATCH(variant)(family).blend; });
 }
 
 std::vector<QuantizedTestFunction> quantized_test_variants(LaneFamily family) {
-    std::vector<QuantizedTestFunction> functions;
-    for (const Variant& variant : variants(family)) {
-        functions.push_back(variant.test);
-    }
-    return functions;
+    return of_all_targets([family] { return HWY_DYNAMIC_DISPATCH(variant)(family).test; });
 }
 
 QuantizedBlendFunction quantized_blend_function(LaneFamily family) {
-    return variants(family).back().blend;
+    return HWY_DYNAMIC_DISPATCH(variant)(family).blend;
 }
 
 QuantizedTestFunction quantized_test_function(LaneFamily family) {
-    return variants(family).back().test;
+    return HWY_DYNAMIC_DISPATCH(variant)(family).test;
 }
 
 } // namespace degs
+#endif

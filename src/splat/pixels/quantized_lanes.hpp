@@ -54,7 +54,7 @@ using QuantizedBlendFunction = BlendOutcome (*)(const BlendTask& task,
 /// Pixels with the result of their own check.
 struct TestedPixels {
     std::uint32_t mask = 0;
-    float q[32] = {}; ///< of mask bit i
+    float q[32 + kLanePadding] = {}; ///< of mask bit i
 };
 /// A PE that blends where q <= the limit of the splat, otherwise like QuantizedBlendFunction; all
 /// else is boundary.

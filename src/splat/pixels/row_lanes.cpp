@@ -2,34 +2,30 @@
 #include "splat/pixels/row_lanes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
 
 #include "splat/frame/pixel_index.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "splat/pixels/row_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace degs::HWY_NAMESPACE {
+#include "splat/pixels/row_kernel.inc"
+SolveRowsFunction solver() {
+    return &solve_rows;
+}
+} // namespace degs::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include "splat/numbers/instruction_set.hpp"
 
-#ifdef DEGS_HAS_WIDE_LANES
-#include <immintrin.h>
-#endif
-
 namespace degs {
-
-namespace narrow_rows {
-constexpr int kLanes = 2;
-#include "splat/pixels/row_kernel.inc"
-} // namespace narrow_rows
-
-#ifdef DEGS_HAS_WIDE_LANES
-#pragma GCC push_options
-#pragma GCC target("avx2")
-namespace wide_rows {
-constexpr int kLanes = 4;
-#include "splat/pixels/row_kernel.inc" // NOLINT(readability-duplicate-include)
-} // namespace wide_rows
-#pragma GCC pop_options
-#else
-namespace wide_rows = narrow_rows;
-#endif
+HWY_EXPORT(solver);
 
 RowNumbers::RowNumbers(const NumberSet& set)
     : vertical(set.vertical), ends(set.ends), base(set.base), delta(set.delta), guard(set.guard),
@@ -49,13 +45,13 @@ RowSpan row_span(const QuantizedSpan& span, int x_begin) {
     return row;
 }
 
-std::vector<SolveRowsFunction> solve_rows_variants() {
-    return runnable<SolveRowsFunction>({&narrow_rows::solve_rows, &wide_rows::solve_rows});
+SolveRowsFunction solve_rows_function() {
+    return HWY_DYNAMIC_DISPATCH(solver)();
 }
 
-SolveRowsFunction solve_rows_function() {
-    static const SolveRowsFunction widest = solve_rows_variants().back();
-    return widest;
+std::vector<SolveRowsFunction> solve_rows_variants() {
+    return of_all_targets([] { return HWY_DYNAMIC_DISPATCH(solver)(); });
 }
 
 } // namespace degs
+#endif

@@ -1,33 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/numbers/instruction_set.hpp"
-
+// All kernels are there for the same instruction sets, of which the widest is chosen.
 #include <gtest/gtest.h>
 
 #include "splat/pixels/quantized_lanes.hpp"
+#include "splat/pixels/row_lanes.hpp"
 
 namespace degs {
 namespace {
 
-TEST(InstructionSets, KeepWhatTheMachineCanRun) {
-    const std::size_t most = static_cast<std::size_t>(instruction_set()) + 1;
-    EXPECT_EQ(runnable<int>({4, 8, 16}).size(), most);
-    EXPECT_EQ(runnable<int>({4, 8, 16}).front(), 4);
-    EXPECT_EQ(runnable<int>({4, 8}).size(), std::min<std::size_t>(most, 2));
-    EXPECT_EQ(runnable<int>({4}).size(), 1U);
-}
-
-// All kernels are chosen alike, each among those that it has.
-TEST(InstructionSets, AreThoseOfEveryKernel) {
-    const std::size_t most = static_cast<std::size_t>(instruction_set()) + 1;
-    EXPECT_EQ(blend_variants().size(), std::min<std::size_t>(most, 2));
-    EXPECT_EQ(test_variants().size(), blend_variants().size());
-    EXPECT_EQ(round_variants().size(), blend_variants().size());
-    for (const LaneFamily family : {LaneFamily::Any, LaneFamily::Fixed, LaneFamily::Half}) {
-        EXPECT_EQ(quantized_blend_variants(family).size(), most);
-        EXPECT_EQ(quantized_test_variants(family).size(), most);
-        EXPECT_EQ(quantized_blend_function(family), quantized_blend_variants(family).back());
+template <class Function>
+void expect_widest(const std::vector<Function>& variants, Function chosen) {
+    EXPECT_EQ(variants.size(), round_variants().size());
+    EXPECT_EQ(chosen, variants.back());
+    for (std::size_t i = 1; i < variants.size(); ++i) {
+        EXPECT_NE(variants[i], variants[i - 1]);
     }
 }
+
+TEST(InstructionSets, AreThoseOfEveryKernel) {
+    expect_widest(blend_variants(), blend_function(0.0F));
+    expect_widest(test_variants(), test_function(0.0F));
+    expect_widest(product_variants(), product_function(0.0F));
+    expect_widest(rasterise_variants(), rasterise_function());
+    expect_widest(solve_rows_variants(), solve_rows_function());
+    for (const LaneFamily family : {LaneFamily::Any, LaneFamily::Fixed, LaneFamily::Half}) {
+        expect_widest(quantized_blend_variants(family), quantized_blend_function(family));
+        expect_widest(quantized_test_variants(family), quantized_test_function(family));
+    }
+}
+
+#if defined(__x86_64__)
+TEST(InstructionSets, AreMoreThanTheLeastWhereTheMachineHasAvx2) {
+    const bool wide = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
+                      __builtin_cpu_supports("bmi2") != 0 && __builtin_cpu_supports("aes") != 0;
+    EXPECT_EQ(round_variants().size() > 1, wide);
+}
+#endif
 
 } // namespace
 } // namespace degs
