@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refuses what the rules of the options do not allow. It does not include CLI11, because the keys
-// of a study stand for options, too, and obey the same rules.
+// These functions refuse options that the rules do not allow together. They do not know CLI11,
+// because the keys of a study stand for options, too, and obey the same rules.
 #pragma once
 
 #include <functional>

@@ -23,7 +23,7 @@ const std::vector<FormerOptions>& former_options() {
         {"degs explore",
          {"--search", "--rungs", "--share", "--least"},
          "is gone with the search by halving: leave it out, and say with --budget how many designs "
-         "are simulated at most; a space that has not more is simulated whole"}};
+         "are simulated at most; a space with no more designs than that is simulated whole"}};
     return former;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a search on made-up designs: who is bred, who is chosen, and what is told of it.
+// These tests lead a search step by step through made-up designs, and look at which designs it
+// breeds, which it chooses, and what it reports.
 #include <algorithm>
 
 #include <gmock/gmock.h>
