@@ -11,7 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "sim/shell/output_folder.hpp"
-#include "sim/simulation/view.hpp"
+#include "sim/view/view.hpp"
 #include "splat/frame/rendering_rules.hpp"
 #include "splat/numbers/number_set.hpp"
 #include "splat/pixels/exponent_gemm.hpp"

@@ -13,9 +13,11 @@
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
 #include "sim/shell/scene_list.hpp"
-#include "sim/simulation/simulation.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
+#include "sim/text/warnings.hpp"
+#include "sim/view/frame_warnings.hpp"
+#include "sim/view/reference.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

@@ -8,8 +8,10 @@
 #include "degs/error.hpp"
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/shell/scene_list.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
+#include "sim/text/warnings.hpp"
+#include "sim/view/frame_warnings.hpp"
+#include "sim/view/view.hpp"
 #include "splat/frame/frame_workload.hpp"
 
 namespace degs::sim {

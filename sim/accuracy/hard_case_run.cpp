@@ -12,9 +12,12 @@
 #include "base/ratio.hpp"
 #include "degs/error.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
-#include "sim/simulation/view.hpp"
+#include "sim/simulation/completed_run.hpp"
+#include "sim/simulation/run_result.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/reference.hpp"
+#include "sim/view/view.hpp"
 #include "splat/reference/reference_renderer.hpp"
 
 namespace degs::sim {

@@ -9,13 +9,16 @@
 #include "config/config_document.hpp"
 #include "degs/error.hpp"
 #include "modules/kit/analytic/analytic_energy.hpp"
+#include "sim/design/run_config.hpp"
+#include "sim/process/memory_use.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/what_if_words.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/frame_warnings.hpp"
 
 namespace degs::sim {
 namespace {

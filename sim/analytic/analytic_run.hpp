@@ -12,8 +12,10 @@
 #include "modules/kit/analytic/analytic_frame.hpp"
 #include "sim/analytic/what_if_run.hpp"
 #include "sim/cache/cached_view.hpp"
+#include "sim/design/run_config.hpp"
 #include "sim/report/measures.hpp"
-#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/what_if.hpp"
+#include "sim/view/frame_facts.hpp"
 
 namespace degs::sim {
 

@@ -5,8 +5,10 @@
 
 #include "config/config_source.hpp"
 #include "sim/analytic/analytic_run.hpp"
-#include "sim/simulation/frame_kind.hpp"
+#include "sim/design/run_config.hpp"
+#include "sim/simulation/what_if.hpp"
 #include "sim/text/comma_parts.hpp"
+#include "sim/view/frame_kind.hpp"
 
 namespace degs::sim {
 namespace {

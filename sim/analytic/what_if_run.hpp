@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/cache/cached_view.hpp"
-#include "sim/simulation/simulation.hpp"
+#include "sim/design/run_config.hpp"
 #include "sim/simulation/what_if.hpp"
 
 namespace degs::sim {

@@ -11,8 +11,13 @@
 
 #include "degs/error.hpp"
 #include "sim/process/stopwatch.hpp"
-#include "sim/simulation/view_group.hpp"
 #include "sim/text/progress.hpp"
+#include "sim/view/foveated_view.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/reference.hpp"
+#include "sim/view/view.hpp"
+#include "sim/view/view_group.hpp"
+#include "sim/view/workloads.hpp"
 
 namespace degs::sim {
 namespace {
@@ -313,6 +318,23 @@ Reference CachedView::full_reference(const Camera& camera, const FrameWorkload& 
         cache_.keep(frame_key(0), full, made);
     }
     return made;
+}
+
+bool CachedView::references_need_cloud(const FrameWorkload& frame) const {
+    return !scene_.cloud.empty() && (foveated_ || !frame.projection.numbers.is_reference());
+}
+
+References CachedView::references(const std::vector<FrameWorkload>& first) {
+    References references;
+    for (const FrameWorkload& view : first) {
+        references.views.push_back(reference(view));
+    }
+    if (foveated_) {
+        for (const FoveatedView& image : foveated_->images) {
+            references.full.push_back(full_reference(image.camera, first.front()));
+        }
+    }
+    return references;
 }
 
 void CachedView::forget_cloud() {

@@ -9,8 +9,11 @@
 
 #include "config/input_files.hpp"
 #include "sim/cache/frame_cache.hpp"
-#include "sim/simulation/foveated_image.hpp"
-#include "sim/simulation/view.hpp"
+#include "sim/view/foveated_view.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/reference.hpp"
+#include "sim/view/view.hpp"
+#include "sim/view/workloads.hpp"
 #include "sim/workload_file/workload_file.hpp"
 
 namespace degs::sim {
@@ -42,13 +45,10 @@ public:
     FrameSource frames(const AcceleratorConfig& config, const std::vector<FrameWorkload>& first);
     /// Throws InputError if the view is a workload file without the reference of such a frame.
     void require_reference(const FrameWorkload& frame) const;
-    /// The reference of such a frame.
-    Reference reference(const FrameWorkload& frame);
-    /// The reference of a foveated image without foveation, drawn by the rules of `frame`. Kept at
-    /// once if it took some time.
-    Reference full_reference(const Camera& camera, const FrameWorkload& frame);
-    /// Something had to be made from the Gaussians, which are still there.
-    bool has_cloud() const { return !scene_.cloud.empty(); }
+    /// Whether references of the first frame are made from Gaussians, which frames() frees.
+    bool references_need_cloud(const FrameWorkload& frame) const;
+    /// The references of the first frame, found or made.
+    References references(const std::vector<FrameWorkload>& first);
     /// Frees the Gaussians; they are loaded again if they are needed after all.
     void forget_cloud();
     /// Keeps what was made and took some time: the first frame, and its references, as they were
@@ -59,6 +59,10 @@ public:
     double workload_s() const { return workload_s_; } ///< host, projections
 
 private:
+    Reference reference(const FrameWorkload& frame);
+    /// The reference of a foveated image without foveation, drawn by the rules of `frame`. Kept at
+    /// once if it took some time.
+    Reference full_reference(const Camera& camera, const FrameWorkload& frame);
     void open_workload(const PathRequest& path);
     /// Puts the levels of each camera in its place. Throws InputError if their numbers differ.
     void foveate(const Foveation& foveation);

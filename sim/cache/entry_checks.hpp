@@ -4,7 +4,8 @@
 #pragma once
 
 #include "sim/cache/frame_cache.hpp"
-#include "sim/simulation/frame_checks.hpp"
+#include "sim/view/frame_checks.hpp"
+#include "sim/view/reference.hpp"
 
 namespace degs::sim {
 

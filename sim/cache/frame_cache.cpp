@@ -10,8 +10,10 @@
 #include "sim/cache/binary.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/cache/entry_checks.hpp"
-#include "sim/simulation/frame_kind.hpp"
-#include "sim/simulation/warnings.hpp"
+#include "sim/text/warnings.hpp"
+#include "sim/view/frame_checks.hpp"
+#include "sim/view/frame_kind.hpp"
+#include "sim/view/reference.hpp"
 
 namespace degs::sim {
 namespace {

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "sim/cache/disk_cache.hpp"
-#include "sim/simulation/simulation.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/reference.hpp"
 
 namespace degs::sim {
 

@@ -7,9 +7,9 @@
 #include "sim/compare/comparison_output.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/study/study_options.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/warnings.hpp"
 
 namespace degs::sim {
 namespace {

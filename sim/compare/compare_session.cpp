@@ -12,7 +12,8 @@
 #include "sim/page/page.hpp"
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"
-#include "sim/simulation/warnings.hpp"
+#include "sim/text/warnings.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

@@ -13,10 +13,10 @@
 #include "sim/config/schema.hpp"
 #include "sim/config/shared_keys.hpp"
 #include "sim/config/statistics_list.hpp"
+#include "sim/design/run_config.hpp"
 #include "sim/shell/commands.hpp"
-#include "sim/simulation/run_config.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/warnings.hpp"
 
 namespace degs::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include "base/json_text.hpp"
 #include "config/config_schema.hpp"
 #include "modules/kit/config/number_choice.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 #include "sim/study/study_schema.hpp"
 
 namespace degs::sim {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "config/config_words.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 
 namespace degs::sim {
 namespace {

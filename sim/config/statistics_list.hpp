@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 #include "stats/statistics_document.hpp"
 
 namespace degs::sim {

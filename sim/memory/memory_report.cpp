@@ -5,6 +5,7 @@
 
 #include "base/ratio.hpp"
 #include "config/config_document.hpp"
+#include "sim/process/memory_use.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/terminal.hpp"
 #include "sim/text/text_table.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "sim/simulation/view.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 

@@ -8,7 +8,7 @@
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"
 #include "sim/results/run_summary.hpp"
-#include "sim/simulation/warnings.hpp"
+#include "sim/text/warnings.hpp"
 
 namespace degs::sim {
 namespace {

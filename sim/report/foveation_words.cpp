@@ -9,8 +9,10 @@
 #include "base/ratio.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/report/view_words.hpp"
-#include "sim/simulation/foveated_run.hpp"
+#include "sim/simulation/foveated_image.hpp"
+#include "sim/simulation/run_result.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/frame_facts.hpp"
 
 namespace degs::sim {
 namespace {

@@ -5,9 +5,10 @@
 
 #include "base/ratio.hpp"
 #include "modules/kit/accelerator/waiting_causes.hpp"
-#include "sim/simulation/foveated_run.hpp"
 #include "sim/simulation/loss_keys.hpp"
+#include "sim/simulation/run_result.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/run_result.hpp"
 
 namespace degs::sim {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/run_result.hpp"
 #include "stats/statistics_document.hpp"
 
 namespace degs::sim {

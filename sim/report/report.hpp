@@ -4,7 +4,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/simulation/simulation.hpp"
+#include "sim/design/run_config.hpp"
+#include "sim/simulation/run_result.hpp"
+#include "sim/view/frame_facts.hpp"
 
 namespace degs::sim {
 

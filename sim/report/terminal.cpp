@@ -12,9 +12,13 @@
 #include "sim/report/foveation_words.hpp"
 #include "sim/report/losses.hpp"
 #include "sim/report/view_words.hpp"
-#include "sim/simulation/foveated_run.hpp"
+#include "sim/sampling/sampled_run.hpp"
+#include "sim/simulation/frame_changes.hpp"
+#include "sim/simulation/run_result.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

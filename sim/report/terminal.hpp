@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/run_result.hpp"
+#include "sim/view/frame_facts.hpp"
 
 namespace degs::sim {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/run_result.hpp"
 
 namespace degs::sim {
 

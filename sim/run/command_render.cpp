@@ -6,16 +6,20 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/files/image_io.hpp"
+#include "sim/process/memory_use.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/terminal.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/warnings.hpp"
 #include "sim/text/words.hpp"
 #include "sim/trace/tile_maps.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/frame_warnings.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

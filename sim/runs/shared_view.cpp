@@ -11,6 +11,7 @@
 #include "sim/report/report.hpp"
 #include "sim/results/run_summary.hpp"
 #include "sim/shell/output_folder.hpp"
+#include "sim/simulation/completed_run.hpp"
 #include "sim/text/progress.hpp"
 
 namespace degs::sim {
@@ -18,12 +19,12 @@ namespace degs::sim {
 void SharedView::render_references() {
     const FrameWorkload& frame = frames.front();
     const decltype(reference_kind) kind{image_tiles(frame), rule_kind(frame.projection)};
-    if (!references.empty() && reference_kind == kind) {
+    if (!references.views.empty() && reference_kind == kind) {
         return;
     }
-    references.clear();
+    references.views.clear();
     for (int v = 0; v < views; ++v) {
-        references.push_back(make_reference(*cloud, frames[v], workload_s));
+        references.views.push_back(make_reference(*cloud, frames[v], workload_s));
     }
     reference_kind = kind;
 }
@@ -40,7 +41,8 @@ void SharedView::share_colours() {
 }
 
 // Most designs of a study draw the same image, whose error is found once.
-ImageError SharedView::error_of(const Image& image, std::size_t view) const {
+ImageError SharedView::error_of(std::size_t view, const Image& reference,
+                                const Image& image) const {
     constexpr int kMostImages = 8; // of different numbers
     std::string pixels(reinterpret_cast<const char*>(image.rgb.data()),
                        image.rgb.size() * sizeof(float));
@@ -51,7 +53,7 @@ ImageError SharedView::error_of(const Image& image, std::size_t view) const {
             "image " + std::to_string(number) + " of view " + std::to_string(view);
         const std::string_view known = kept->find(name);
         if (known.data() == nullptr) {
-            const ImageError error = compare_images(references[view].image, image);
+            const ImageError error = compare_images(reference, image);
             std::string bytes(reinterpret_cast<const char*>(&error), sizeof error);
             kept->put(name, bytes.append(pixels));
             return error;
@@ -62,7 +64,7 @@ ImageError SharedView::error_of(const Image& image, std::size_t view) const {
             return error;
         }
     }
-    return compare_images(references[view].image, image);
+    return compare_images(reference, image);
 }
 
 std::string SharedView::run(const RunRequest& request, bool path) const {
@@ -78,12 +80,10 @@ std::string SharedView::run(const RunRequest& request, bool path) const {
     RunResult result = run_frames(request, source_of(wanted));
     put_scene(scene, result);
     if (request.reference && !path) {
-        judge(result, references.front(),
-              [this](const Image&, const Image& image) { return error_of(image, 0); });
-        for (std::size_t v = 0; v < result.views.size(); ++v) {
-            judge_view(result, v, references[v],
-                       [this, v](const Image&, const Image& image) { return error_of(image, v); });
-        }
+        judge(result, references,
+              [this](std::size_t view, const Image& reference, const Image& image) {
+                  return error_of(view, reference, image);
+              });
     }
     result.host.load_s = load_s;
     result.host.workload_s = workload_s;

@@ -8,7 +8,13 @@
 #include <vector>
 
 #include "base/shared_bytes.hpp"
-#include "sim/simulation/frame_kind.hpp"
+#include "sim/design/run_config.hpp"
+#include "sim/simulation/run_result.hpp"
+#include "sim/simulation/simulation.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/frame_kind.hpp"
+#include "sim/view/reference.hpp"
+#include "sim/view/workloads.hpp"
 
 namespace degs::sim {
 
@@ -24,7 +30,7 @@ struct SharedView {
     double load_s = 0, workload_s = 0;
     std::vector<FrameWorkload> frames; ///< of the present group
     std::unique_ptr<SharedBytes> kept; ///< what its simulations keep for each other, if several
-    std::vector<Reference> references; ///< of the first frame's views, of `reference_kind`
+    References references;             ///< of the first frame, of `reference_kind`
     /// What the image depends on beside the view: side and mode of tiles, and the rules.
     std::pair<std::pair<int, TileMode>, RuleKind> reference_kind;
 
@@ -40,7 +46,7 @@ struct SharedView {
     std::string estimate(const RunConfig& config) const;
 
 private:
-    ImageError error_of(const Image& image, std::size_t view) const;
+    ImageError error_of(std::size_t view, const Image& reference, const Image& image) const;
 };
 
 } // namespace degs::sim

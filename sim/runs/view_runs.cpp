@@ -8,7 +8,12 @@
 
 #include "sim/runs/shared_view.hpp"
 #include "sim/shell/scene_list.hpp"
-#include "sim/simulation/view_group.hpp"
+#include "sim/simulation/simulation.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/frame_kind.hpp"
+#include "sim/view/view.hpp"
+#include "sim/view/view_group.hpp"
+#include "sim/view/workloads.hpp"
 
 namespace degs::sim {
 namespace {

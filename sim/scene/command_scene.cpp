@@ -18,9 +18,12 @@
 #include "sim/shell/commands.hpp"
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/warnings.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/frame_warnings.hpp"
+#include "sim/view/view.hpp"
 #include "splat/frame/rendering_rules.hpp"
 
 namespace degs::sim {

@@ -13,9 +13,10 @@
 #include "sim/report/terminal.hpp"
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/warnings.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

@@ -19,10 +19,11 @@
 #include "sim/report/scene_words.hpp"
 #include "sim/scene/scene_cameras.hpp"
 #include "sim/shell/output_folder.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/warnings.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/frame_facts.hpp"
 #include "splat/reference/reference_renderer.hpp"
 
 namespace degs::sim {

@@ -8,10 +8,10 @@
 #include "sim/search/search_output.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/study/study_options.hpp"
 #include "sim/sweep/sweep_results.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/warnings.hpp"
 
 namespace degs::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/simulation/view.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 

@@ -9,7 +9,7 @@
 
 #include <CLI/App.hpp>
 
-#include "sim/simulation/view.hpp"
+#include "sim/view/view.hpp"
 #include "splat/frame/rendering_rules.hpp"
 
 namespace degs::sim {

@@ -5,6 +5,8 @@
 
 #include "accuracy/flip/flip.hpp"
 #include "base/ratio.hpp"
+#include "sim/simulation/completed_run.hpp"
+#include "sim/view/foveated_view.hpp"
 #include "splat/foveation/compose.hpp"
 
 namespace degs::sim {

@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A foveated image: its levels, the image that they make up, and how far it is from a full one.
+// A foveated image: what its levels make up, and how far it is from a full one.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "splat/foveation/foveation.hpp"
+#include "sim/view/foveated_view.hpp"
 #include "splat/images/image.hpp"
 #include "splat/images/image_metrics.hpp"
 
 namespace degs::sim {
-
-/// A camera and the views that draw its image.
-struct FoveatedView {
-    Camera camera;
-    std::vector<FoveatedLevel> levels; ///< finest first
-};
-
-/// The images of a frame.
-struct FoveatedViews {
-    Foveation asked;
-    std::vector<FoveatedView> images; ///< with as many levels each
-};
 
 /// How far some pixels of an image are from those of the reference at full resolution.
 struct PartError {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "modules/kit/accelerator/loss_keys.hpp"
-#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/run_result.hpp"
 
 namespace degs::sim {
 

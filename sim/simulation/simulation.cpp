@@ -1,167 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/simulation/simulation.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
-#include <sys/resource.h>
-
-#include "degs/error.hpp"
-#include "scene/cameras/eyes.hpp"
+#include "sim/accelerator/accelerator_run.hpp"
+#include "sim/process/memory_use.hpp"
 #include "sim/process/reserve.hpp"
 #include "sim/process/stopwatch.hpp"
+#include "sim/sampling/sampled_run.hpp"
+#include "sim/simulation/frame_changes.hpp"
 #include "sim/simulation/loss_keys.hpp"
-#include "sim/simulation/warnings.hpp"
-#include "splat/frame/shared_colours.hpp"
+#include "sim/simulation/run_result.hpp"
+#include "sim/text/words.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/frame_warnings.hpp"
 
 namespace degs::sim {
-
-SceneFacts facts_of(const Scene& scene) {
-    return {scene.name,    scene.source, scene.cloud.size(), scene.cloud.sh_degree,
-            scene.dropped, scene.traits, scene.notes,        ""};
-}
-
-void put_scene(const SceneFacts& scene, RunResult& result) {
-    result.scene = scene;
-    result.warnings.insert(result.warnings.begin(), scene.notes.begin(), scene.notes.end());
-}
-
-WorkloadFacts facts_of(const FrameWorkload& workload) {
-    WorkloadFacts facts;
-    facts.gaussians = workload.gaussians;
-    facts.visible = workload.splats.size();
-    facts.tile_pairs = workload.tile_pairs();
-    facts.culled = workload.culled;
-    facts.projection = workload.projection;
-    facts.tile_size = workload.tile_size;
-    const TileGrid grid = workload.grid();
-    facts.tiles = grid.shown_tiles();
-    facts.pixels = grid.shown_pixels();
-    for (int t = 0; t < workload.tiles(); ++t) {
-        const bool lists = workload.tile_begin[t] != workload.tile_begin[t + 1];
-        facts.empty_tiles += lists || grid.is_hidden(t) ? 0 : 1;
-    }
-    return facts;
-}
-
-std::uint64_t peak_rss_bytes() {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return std::uint64_t{1024} * usage.ru_maxrss; // Linux counts in KiB
-}
-
-std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const SceneTraits& traits,
-                                          const std::vector<Camera>& cameras,
-                                          const AcceleratorConfig& config, double& seconds) {
-    const Progress progress("projecting and sorting");
-    const Stopwatch clock;
-    std::vector<FrameWorkload> workloads;
-    workloads.reserve(cameras.size());
-    const ProjectionOptions options = projection_of(config.data_path(), traits.antialiased);
-    for (const Camera& camera : cameras) {
-        workloads.push_back(
-            make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode(), options));
-    }
-    seconds += clock.seconds();
-    return workloads;
-}
-
-void require_frames(const DynamicScene& scene, int frames) {
-    if (frames > scene.frames()) {
-        throw InputError("The scene has " + std::to_string(scene.frames()) + " frames, and " +
-                         std::to_string(frames) + " were asked for (--frames).");
-    }
-}
-
-std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
-                                          const std::vector<Camera>& cameras,
-                                          const AcceleratorConfig& config, double& seconds,
-                                          int views) {
-    const int frames = static_cast<int>(cameras.size()) / views;
-    require_frames(scene, frames);
-    std::vector<FrameWorkload> workloads;
-    for (int k = 0; k < frames; ++k) {
-        const GaussianCloud cloud = scene.frame(k);
-        const auto first = cameras.begin() + k * views;
-        for (FrameWorkload& view :
-             make_workloads(cloud, traits, {first, first + views}, config, seconds)) {
-            workloads.push_back(std::move(view));
-        }
-    }
-    return workloads;
-}
-
-void share_colours(const GaussianCloud& cloud, std::vector<FrameWorkload>& frames,
-                   std::size_t first, std::size_t count) {
-    std::vector<Camera> cameras;
-    for (std::size_t f = first; f < first + count; ++f) {
-        cameras.push_back(frames[f].camera);
-    }
-    for (std::size_t f = first; f < first + count; ++f) {
-        shade_from(cloud, middle_of(cameras), frames[f]);
-    }
-}
-
-Reference make_reference(const FrameWorkload& workload) {
-    const Progress progress("reference image");
-    const CpuStopwatch clock;
-    Reference reference;
-    reference.image = render_reference(workload, reference.counts);
-    reference.render_s = clock.seconds();
-    return reference;
-}
-
-Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame, double& seconds) {
-    if (frame.projection.numbers.is_reference()) {
-        return make_reference(frame);
-    }
-    const Stopwatch clock;
-    ProjectionOptions options = frame.projection;
-    options.numbers = ProjectionNumbers();
-    const FrameWorkload exact =
-        make_frame_workload(cloud, frame.camera, frame.tile_size, frame.tile_mode, options);
-    seconds += clock.seconds();
-    return make_reference(exact);
-}
-
-void judge(RunResult& result, const Reference& reference,
-           const std::function<ImageError(const Image&, const Image&)>& compare) {
-    result.host.render_s = reference.render_s;
-    result.workload.reference = reference.counts;
-    result.error = compare(reference.image, result.accelerator.images.front());
-}
-
-void judge_view(RunResult& result, std::size_t view, const Reference& reference,
-                const std::function<ImageError(const Image&, const Image&)>& compare) {
-    result.views[view].workload.reference = reference.counts;
-    result.views[view].error = compare(reference.image, result.accelerator.images[view]);
-}
-
-std::vector<const FrameWorkload*> first_views(const std::vector<const FrameWorkload*>& frames,
-                                              std::size_t views) {
-    std::vector<const FrameWorkload*> first;
-    for (std::size_t f = 0; f < frames.size(); f += views) {
-        first.push_back(frames[f]);
-    }
-    return first;
-}
-
-std::size_t images_of(const RunResult& result) {
-    return result.foveation ? result.foveation->images.size()
-                            : std::max<std::size_t>(1, result.views.size());
-}
-
-const Image& image_of(const RunResult& result, std::size_t image) {
-    return result.foveation ? result.foveation->images[image].image
-                            : result.accelerator.images[image];
-}
-
-const std::optional<ImageError>& error_of(const RunResult& result, std::size_t image) {
-    return result.foveation       ? result.foveation->images[image].error
-           : result.views.empty() ? result.error
-                                  : result.views[image].error;
-}
 
 namespace {
 
@@ -267,6 +122,17 @@ void put_first_frame(const RunRequest& request, const std::vector<FramePointer>&
     }
     append(result.warnings, saturation_warnings(request.config.accelerator().data_path(), first));
     append(result.warnings, lens_warnings(first.camera, first.projection));
+}
+
+/// A sentence if pixels were updated again before their write-back.
+std::vector<std::string> hazard_warnings(const AcceleratorResult& run) {
+    if (run.hazards == 0) {
+        return {};
+    }
+    return {"Hazards: " + grouped(run.hazards) +
+            " pixels were updated again before their write-back, because scheduler.scoreboard is "
+            "false. Updates are lost and the image is wrong; image.psnr_db and "
+            "image.max_abs_error of the report say by how much."};
 }
 
 void put_host(const RunRequest& request, RunResult& result, double run_s) {

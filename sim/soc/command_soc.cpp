@@ -6,14 +6,16 @@
 
 #include "config/config_source.hpp"
 #include "degs/error.hpp"
+#include "sim/design/run_config.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/soc/platform_keys.hpp"
 #include "sim/soc/soc_study.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/warnings.hpp"
 #include "sim/trace/trace_options.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

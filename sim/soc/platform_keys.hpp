@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "config/config_source.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 
 namespace degs::sim {
 

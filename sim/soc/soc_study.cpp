@@ -6,10 +6,13 @@
 
 #include "base/ratio.hpp"
 #include "sim/process/stopwatch.hpp"
-#include "sim/simulation/warnings.hpp"
+#include "sim/simulation/completed_run.hpp"
+#include "sim/simulation/run_result.hpp"
 #include "sim/soc/soc_platform.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/frame_warnings.hpp"
+#include "sim/view/view.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "splat/reference/reference_renderer.hpp"
 

@@ -8,13 +8,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "sim/design/run_config.hpp"
 #include "sim/memory/memory_report.hpp"
-#include "sim/simulation/run_config.hpp"
-#include "sim/simulation/view.hpp"
 #include "sim/soc/cpu_traffic.hpp"
 #include "sim/soc/display.hpp"
 #include "sim/soc/soc_host.hpp"
 #include "sim/trace/trace_file.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "sim/design/run_config.hpp"
 #include "sim/sampling/sampling_request.hpp"
-#include "sim/simulation/run_config.hpp"
-#include "sim/simulation/view.hpp"
 #include "sim/study/study_file.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 

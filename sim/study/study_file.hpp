@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "sim/sampling/sampling_request.hpp"
-#include "sim/simulation/view.hpp"
 #include "sim/study/axis.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 

@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "scene/files/image_io.hpp"
-#include "sim/simulation/view.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

@@ -13,7 +13,6 @@
 #include "sim/runs/view_runs.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
-#include "sim/simulation/warnings.hpp"
 #include "sim/study/study_options.hpp"
 #include "sim/sweep/array_task.hpp"
 #include "sim/sweep/ranking.hpp"
@@ -21,7 +20,9 @@
 #include "sim/sweep/sweep_results.hpp"
 #include "sim/sweep/sweep_session.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/text/warnings.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

@@ -61,10 +61,10 @@ int worth_of_break(const std::string& line, std::size_t at) {
 /// Where the line breaks so that what stands before has at most `width` characters, if possible;
 /// npos: nowhere. A separator is better than a blank between words.
 std::size_t break_of(const std::string& line, std::size_t width, std::size_t indent) {
-    constexpr std::size_t kNone = std::string::npos;
-    std::size_t separator = kNone, blank = kNone, shown = 0;
+    constexpr std::size_t kNowhere = std::string::npos;
+    std::size_t separator = kNowhere, blank = kNowhere, shown = 0;
     for (std::size_t at = 0; at < line.size(); ++at) {
-        const bool found = separator != kNone || blank != kNone;
+        const bool found = separator != kNowhere || blank != kNowhere;
         if (shown > width && found) {
             break;
         }
@@ -75,7 +75,7 @@ std::size_t break_of(const std::string& line, std::size_t width, std::size_t ind
         }
         shown += starts_character(line[at]) ? 1 : 0;
     }
-    return separator != kNone ? separator : blank;
+    return separator != kNowhere ? separator : blank;
 }
 
 std::string folded_line(std::string line, std::size_t width, std::size_t indent) {

@@ -16,7 +16,7 @@ namespace degs::sim {
 namespace {
 
 constexpr const char* kLayers = "tiles.exr";
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 struct Measured {
     const char* name;
@@ -132,7 +132,7 @@ TileMaps tile_maps_of(const RunResult& result) {
     TileMaps maps{TileGrid(result.camera, result.workload.tile_size), {}};
     const std::size_t tiles = std::size_t{1} * maps.grid.tiles_x() * maps.grid.tiles_y();
     const auto add = [&](const std::string& name, const std::string& title, const auto& value) {
-        TileMap map{name, title, std::vector<float>(tiles, static_cast<float>(kNone))};
+        TileMap map{name, title, std::vector<float>(tiles, static_cast<float>(kNoValue))};
         for (const TileRecord& tile : result.accelerator.tile_records) {
             if (tile.frame == 0) {
                 map.values[maps.grid.tile_of_pixel(tile.x, tile.y)] =

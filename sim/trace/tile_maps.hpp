@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/shell/output_folder.hpp"
-#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/run_result.hpp"
 
 namespace degs::sim {
 

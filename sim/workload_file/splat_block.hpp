@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/simulation/frame_checks.hpp"
+#include "sim/view/frame_checks.hpp"
 #include "sim/workload_file/byte_planes.hpp"
 #include "splat/frame/frame_workload.hpp"
 #include "splat/numbers/number_format.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "scene/files/input_file.hpp"
-#include "sim/simulation/simulation.hpp"
+#include "sim/view/frame_facts.hpp"
 #include "sim/workload_file/workload_head.hpp"
 
 namespace degs::sim {

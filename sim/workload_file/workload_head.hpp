@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/simulation/simulation.hpp"
+#include "sim/view/frame_facts.hpp"
 
 namespace degs::sim {
 

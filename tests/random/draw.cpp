@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 #include "tests/random/draw_value.hpp"
 
 namespace degs::trials {

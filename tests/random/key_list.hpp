@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 #include "splat/numbers/number_set.hpp"
 
 namespace degs::trials {

@@ -9,8 +9,13 @@
 
 #include "scene/cameras/camera_path.hpp"
 #include "scene/cameras/eyes.hpp"
+#include "sim/design/run_config.hpp"
 #include "sim/report/report.hpp"
+#include "sim/simulation/run_result.hpp"
 #include "sim/simulation/simulation.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/view.hpp"
+#include "sim/view/workloads.hpp"
 #include "splat/foveation/foveation.hpp"
 #include "tests/random/promises.hpp"
 

@@ -10,8 +10,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/simulation/view.hpp"
+#include "sim/design/run_config.hpp"
 #include "sim/study/compare_request.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 

@@ -12,8 +12,14 @@
 #include "sim/process/stopping_signals.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/measures.hpp"
-#include "sim/simulation/warnings.hpp"
+#include "sim/sampling/sampled_run.hpp"
+#include "sim/simulation/run_result.hpp"
+#include "sim/simulation/simulation.hpp"
 #include "sim/text/progress.hpp"
+#include "sim/text/warnings.hpp"
+#include "sim/view/frame_warnings.hpp"
+#include "sim/view/reference.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {
@@ -108,7 +114,7 @@ private:
     void begin_accelerator(const SpeedDesign& design) {
         accelerator_ = design.accelerator;
         print_warnings(near_plane_warnings(frames_.front()));
-        const Reference reference = view_.reference(frames_.front());
+        const Reference reference = view_.references(frames_).views.front();
         render_s_ = reference.render_s;
         fragments_ = reference.counts.fragments;
         truth_.image = Image();

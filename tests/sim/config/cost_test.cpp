@@ -4,7 +4,7 @@
 #include <set>
 
 #include "sim/config/cost_output.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {

@@ -8,7 +8,7 @@
 #include "config/config_source.hpp"
 #include "degs/error.hpp"
 #include "sim/config/config_difference.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {

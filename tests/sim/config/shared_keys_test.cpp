@@ -4,7 +4,7 @@
 
 #include "config/config_document.hpp"
 #include "sim/config/shared_keys.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 #include "splat/numbers/number_set.hpp"
 #include "tests/sim/process/child.hpp"
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "sim/design/run_config.hpp"
 #include "sim/process/child_process.hpp"
 #include "sim/simulation/simulation.hpp"
 #include "splat/numbers/lookup_table.hpp"

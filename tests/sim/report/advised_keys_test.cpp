@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "degs/error.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 #include "tests/sim/process/child.hpp"
 #include "tests/sim/report/advised_keys.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "baselines/gcc/config.hpp"
 #include "config/config_document.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {

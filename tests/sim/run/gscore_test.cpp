@@ -4,7 +4,8 @@
 
 #include "baselines/gscore/config.hpp"
 #include "config/config_document.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
+#include "sim/view/view.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Intervals of a frame from a sample of equal blocks, for which survey sampling has closed forms.
+#include "sim/design/run_config.hpp"
 #include "sim/sampling/frame_estimate.hpp"
+#include "sim/sampling/sampled_run.hpp"
+#include "sim/view/view.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
-
-#include "sim/simulation/run_config.hpp"
 
 namespace degs::sim {
 namespace {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/simulation/foveated_image.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "sim/simulation/completed_run.hpp"
+#include "sim/simulation/foveated_image.hpp"
+#include "sim/view/foveated_view.hpp"
 
 namespace degs::sim {
 namespace {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/gini.hpp"
-#include "sim/simulation/frame_changes.hpp"
 
 #include <cmath>
 
 #include "scene/dynamic_scene.hpp"
 #include "scene/scene.hpp"
 #include "sim/cache/cached_view.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
+#include "sim/simulation/frame_changes.hpp"
+#include "sim/view/view.hpp"
 #include "tests/scene/scene_fixture.hpp"
 #include "tests/sim/simulation/all_frames.hpp"
 

@@ -5,7 +5,11 @@
 #include "scene/ply/ply.hpp"
 #include "scene/synthetic/synthetic.hpp"
 #include "sim/cache/cached_view.hpp"
+#include "sim/design/run_config.hpp"
+#include "sim/simulation/frame_changes.hpp"
+#include "sim/simulation/run_result.hpp"
 #include "sim/simulation/simulation.hpp"
+#include "sim/view/view.hpp"
 #include "tests/scene/scene_fixture.hpp"
 
 namespace degs::sim {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "degs/error.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 
 namespace degs::sim {
 namespace {

@@ -6,7 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "sim/simulation/simulation.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
+#include "scene/scene.hpp"
+#include "splat/frame/frame_workload.hpp"
 
 namespace degs::sim {
 

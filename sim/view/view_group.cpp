@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/simulation/view_group.hpp"
+#include "sim/view/view_group.hpp"
 
 #include "scene/cameras/eyes.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 namespace {

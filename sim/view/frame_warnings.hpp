@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a reader should know of frames and their images, in sentences.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "modules/kit/accelerator/accelerator_result.hpp"
+#include "splat/images/image.hpp"
 #include "splat/pixels/data_path.hpp"
 
 namespace degs::sim {
@@ -33,12 +34,5 @@ private:
 /// A sentence for a lens whose distortion the rules leave out, if that moves a corner of the image
 /// by a hundredth of a pixel or more.
 std::vector<std::string> lens_warnings(const Camera& camera, const ProjectionOptions& options);
-/// A sentence if pixels were updated again before their write-back.
-std::vector<std::string> hazard_warnings(const AcceleratorResult& run);
-/// Adds sentences about the design or scene that is called `name`, each once.
-void add_warnings(std::vector<std::string>& all, const std::string& name,
-                  const std::vector<std::string>& sentences);
-/// Prints them on stderr.
-void print_warnings(const std::vector<std::string>& warnings);
 
 } // namespace degs::sim

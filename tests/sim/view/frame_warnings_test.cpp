@@ -2,7 +2,7 @@
 // A number format that does not reach far enough for a scene is named.
 #include <algorithm>
 
-#include "sim/simulation/warnings.hpp"
+#include "sim/view/frame_warnings.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {

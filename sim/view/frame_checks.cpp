@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/simulation/frame_checks.hpp"
+#include "sim/view/frame_checks.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "baselines/gbu/config.hpp"
 #include "config/config_document.hpp"
 #include "modules/degs/config.hpp"
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 
 namespace degs::sim {
 namespace {

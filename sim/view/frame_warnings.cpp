@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/simulation/warnings.hpp"
+#include "sim/view/frame_warnings.hpp"
 
 #include <algorithm>
-#include <iostream>
 
 #include "base/ratio.hpp"
-#include "base/visible_text.hpp"
 #include "scene/cameras/lens_terms.hpp"
 #include "sim/text/words.hpp"
 #include "splat/pixels/saturation.hpp"
@@ -83,33 +81,6 @@ std::vector<std::string> lens_warnings(const Camera& camera, const ProjectionOpt
             ") is left out, because pipeline.rules.lens or --lens is pinhole; it moves a corner of "
             "the image by " +
             three_digits(moved) + " px."};
-}
-
-std::vector<std::string> hazard_warnings(const AcceleratorResult& run) {
-    if (run.hazards == 0) {
-        return {};
-    }
-    return {"Hazards: " + grouped(run.hazards) +
-            " pixels were updated again before their write-back, because scheduler.scoreboard is "
-            "false. Updates are lost and the image is wrong; image.psnr_db and "
-            "image.max_abs_error of the report say by how much."};
-}
-
-void add_warnings(std::vector<std::string>& all, const std::string& name,
-                  const std::vector<std::string>& sentences) {
-    for (const std::string& sentence : sentences) {
-        std::string warning = name;
-        warning.append(": ").append(sentence);
-        if (std::find(all.begin(), all.end(), warning) == all.end()) {
-            all.push_back(warning);
-        }
-    }
-}
-
-void print_warnings(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) {
-        std::cerr << "degs: warning: " << visible(warning) << '\n';
-    }
 }
 
 } // namespace degs::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/simulation/frame_kind.hpp"
+#include "sim/view/frame_kind.hpp"
 
 namespace degs::sim {
 

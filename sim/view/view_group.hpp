@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "sim/simulation/view.hpp"
+#include "sim/view/view.hpp"
 
 namespace degs::sim {
 

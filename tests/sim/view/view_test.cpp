@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "degs/error.hpp"
-#include "sim/simulation/simulation.hpp"
-#include "sim/simulation/view.hpp"
-#include "sim/simulation/view_group.hpp"
+#include "sim/view/frame_facts.hpp"
+#include "sim/view/view.hpp"
+#include "sim/view/view_group.hpp"
 
 namespace degs::sim {
 namespace {

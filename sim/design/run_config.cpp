@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/simulation/run_config.hpp"
+#include "sim/design/run_config.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/simulation/view.hpp"
+#include "sim/view/view.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +12,10 @@
 #include "degs/error.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/process/stopwatch.hpp"
-#include "sim/simulation/frame_checks.hpp"
 #include "sim/text/comma_parts.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
+#include "sim/view/frame_checks.hpp"
 
 namespace degs::sim {
 namespace {
