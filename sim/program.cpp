@@ -92,23 +92,20 @@ void add_commands(CLI::App& program) {
     require_decimal_numbers(program);
 }
 
-void add_set_option(CLI::App& command, std::vector<std::string>& overrides, const char* meaning) {
+} // namespace
+
+void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides,
+                          const char* meaning) {
     command.add_option("--set", overrides, meaning)
         ->type_name("KEY=VALUE")
         ->take_all()
         ->expected(1);
 }
 
-} // namespace
-
-void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides) {
-    add_set_option(command, overrides, "path.to.key=value overrides the file; may be repeated");
-}
-
 void add_addressed_overrides_option(CLI::App& command, std::vector<std::string>& overrides) {
-    add_set_option(command, overrides,
-                   "path.to.key=value for all designs, NAME:path.to.key=value for one; may be "
-                   "repeated");
+    add_overrides_option(
+        command, overrides,
+        "path.to.key=value for all designs, NAME:path.to.key=value for one; may be repeated");
 }
 
 int run_program(int argc, char* argv[]) {

@@ -57,10 +57,6 @@ std::string flip_words(const AccuracyRow& row) {
     return percent(share, 4);
 }
 
-nlohmann::ordered_json or_null(std::optional<double> value) {
-    return value ? number_json(*value) : nlohmann::ordered_json(nullptr);
-}
-
 nlohmann::ordered_json or_null(const std::string& words) {
     return words.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(words);
 }
@@ -75,8 +71,8 @@ nlohmann::ordered_json worst_json(const std::optional<WorstPixel>& worst) {
     json["gaussian"] = worst->gaussian;
     json["operation"] = or_null(worst->operation);
     json["flip"] = or_null(worst->flip);
-    json["error"] = or_null(worst->error);
-    json["error_of_operation"] = or_null(worst->explained);
+    json["error"] = number_json(worst->error);
+    json["error_of_operation"] = number_json(worst->explained);
     return json;
 }
 
@@ -117,13 +113,13 @@ nlohmann::ordered_json accuracy_json(const std::vector<AccuracyRow>& rows) {
         json["numbers"] = row.numbers;
         json["alpha_error_mean"] = number_json(row.alpha_error_mean);
         json["alpha_error_max"] = number_json(row.alpha_error_max);
-        json["psnr_db"] = or_null(row.psnr_db);
-        json["ssim"] = or_null(row.ssim);
-        json["flip"] = or_null(row.flip);
-        json["max_abs_error"] = or_null(row.max_abs_error);
+        json["psnr_db"] = value_or_null(row.psnr_db);
+        json["ssim"] = value_or_null(row.ssim);
+        json["flip"] = value_or_null(row.flip);
+        json["max_abs_error"] = value_or_null(row.max_abs_error);
         json["nonfinite"] = row.nonfinite;
-        json["alpha_error_spread"] = or_null(row.spread);
-        json["alpha_error_mean_to_fp16"] = or_null(row.mean_to_fp16);
+        json["alpha_error_spread"] = value_or_null(row.spread);
+        json["alpha_error_mean_to_fp16"] = value_or_null(row.mean_to_fp16);
         json["gaussians"] = row.gaussians;
         json["support_pixels"] = row.support;
         json["flips"] = row.flips;

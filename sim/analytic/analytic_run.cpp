@@ -19,6 +19,7 @@
 #include "sim/text/words.hpp"
 #include "sim/view/frame_facts.hpp"
 #include "sim/view/frame_warnings.hpp"
+#include "stats/statistics_document.hpp"
 
 namespace degs::sim {
 namespace {
@@ -38,18 +39,12 @@ ordered_json units_json(const AnalyticFrame& frame) {
     return units;
 }
 
-ordered_json energy_json(const cost::RunEnergy& energy) {
-    ordered_json blocks;
-    for (const cost::BlockEnergy& block : energy.blocks()) {
-        blocks[block.name] = {{"dynamic_nj", block.dynamic_nj}, {"leakage_nj", block.leakage_nj}};
-    }
-    return {{"nj_per_frame", energy.nj_per_frame().value_or(0)},
-            {"nj_per_pixel", energy.nj_per_pixel().value_or(0)},
-            {"average_power_w", energy.average_power_w().value_or(0)},
-            {"dynamic_nj", energy.dynamic_nj()},
-            {"leakage_nj", energy.leakage_nj()},
-            {"dram_nj", energy.dram_nj().value_or(0)},
-            {"blocks", blocks}};
+/// The sections on energy and area, as a report has them.
+ordered_json costs_json(const AnalyticRun& run) {
+    return statistics_json(list_statistics([&run](StatsVisitor& visitor) {
+        visitor.section("energy", run.energy, "What the frame takes.");
+        visitor.section("area", run.config.accelerator().bill(), "What the design costs.");
+    }));
 }
 
 std::string cycles_words(double cycles) {
@@ -151,8 +146,7 @@ ordered_json analytic_json(const AnalyticRun& run) {
     json["limited_by"] = frame.limited_by;
     json["slots"] = {{"pes", run.config.accelerator().pes()}, {"utilization", frame.utilization}};
     json["dram"] = {{"bytes", frame.bytes}, {"peak_gb_per_s", run.memory_gb_per_s}};
-    json["energy"] = energy_json(run.energy);
-    json["area"] = area_json(run.config);
+    json.update(costs_json(run));
     json["sample"] = {
         {"tiles", frame.tiles}, {"tiles_drawn", frame.drawn}, {"rows_apart", frame.rows_apart}};
     if (!run.what_if.empty()) {

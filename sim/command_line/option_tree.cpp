@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "config/config_words.hpp"
+#include "sim/text/comma_parts.hpp"
 
 namespace degs::sim {
 namespace {
@@ -30,14 +31,8 @@ std::string between(const std::string& text, const std::string& begin, const std
 
 /// The library writes a type as "TEXT:{exact,strict}" or "INT:INT in [1 - 64]".
 Words choices_of(const std::string& type) {
-    Words choices;
     const std::string list = between(type, "{", "}");
-    for (std::size_t begin = 0; begin < list.size();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        choices.push_back(list.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return choices;
+    return list.empty() ? Words() : comma_parts(list);
 }
 
 std::string range_in(const std::string& type) {

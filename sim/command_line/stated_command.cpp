@@ -23,8 +23,8 @@ bool has_effect(const CLI::Option& option) {
 /// " --width 64", with a value that looks like an option in one word.
 std::string words_of(const CLI::Option& option) {
     const std::string name = option.get_name();
-    if (option.get_items_expected_max() == 0) { // a flag
-        return " " + name;
+    if (option.get_items_expected_max() == 0) { // a flag, which --quick=false takes back
+        return option.as<bool>() ? " " + name : "";
     }
     std::string text;
     for (const std::string& value : option.results()) {
@@ -61,9 +61,9 @@ void add_words(const CLI::App& command, std::string& text) {
 
 } // namespace
 
-std::string stated_command(const CLI::App& program) {
+std::string stated_command(const CLI::App& command) {
     std::string text;
-    add_words(program, text);
+    add_words(command, text);
     return text;
 }
 

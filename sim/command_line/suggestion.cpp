@@ -11,22 +11,6 @@
 namespace degs::sim {
 namespace {
 
-/// Options that a command had once, and what is written in their place.
-struct FormerOptions {
-    const char* command;
-    std::vector<std::string> names;
-    const char* instead;
-};
-
-const std::vector<FormerOptions>& former_options() {
-    static const std::vector<FormerOptions> former{
-        {"degs explore",
-         {"--search", "--rungs", "--share", "--least"},
-         "is gone with the search by halving: leave it out, and say with --budget how many designs "
-         "are simulated at most; a space with no more designs than that is simulated whole"}};
-    return former;
-}
-
 /// The command that the words lead to, as far as they are known.
 const CLI::App& command_of(const CLI::App& program) {
     const CLI::App* command = &program;
@@ -65,13 +49,6 @@ std::string commands_with(const std::string& option, const CommandEntry& program
 /// `word` is what the library could not use.
 std::string unexpected(const std::string& word, const CLI::App& program, const CLI::App& command) {
     const std::string name = word.substr(0, word.find('=')); // --camera=2
-    for (const FormerOptions& former : former_options()) {
-        const auto& names = former.names;
-        if (path_of(command) == former.command &&
-            std::find(names.begin(), names.end(), name) != names.end()) {
-            return config_words::quote(name) + " " + former.instead + ".";
-        }
-    }
     const std::string meant =
         name.empty() ? "" : config_words::nearest(name, candidates_for(name, describe(command)));
     const std::string start = config_words::quote(word) + " is not expected here";

@@ -81,9 +81,7 @@ void add_compare_command(CLI::App& program) {
     command->add_flag("--equal-area", options->equal_area,
                       "also compare as if every configuration took the area of the first: a table, "
                       "and ratios.svg");
-    command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
+    add_jobs_option(*command, options->jobs);
     add_out_option(*command, options->out, "folder for tables, pictures and reports");
     command->callback([options] { run(*options); });
 }

@@ -2,6 +2,7 @@
 // compare.json and compare.csv, both from the table of measures.
 #include <nlohmann/json.hpp>
 
+#include "base/number_json.hpp"
 #include "sim/compare/comparison_output.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/result_words.hpp"
@@ -67,21 +68,16 @@ ordered_json comparison_json(const Comparison& comparison) {
 }
 
 std::string comparison_csv(const Comparison& comparison) {
-    std::string text = "config,accelerator,pes,tile_size,scene,camera,width,height,fidelity";
+    std::string text = "config" + run_headings();
     for_each_measure([&](Measure m) { text += "," + name_of(m); });
     const bool sampled = any_sampled(comparison.rows);
-    const std::vector<std::string> parts = part_names(comparison.rows);
+    const std::vector<std::string> parts = names_of(comparison.rows, &RunNumbers::parts);
     text += part_headings(parts) + (sampled ? sampling_headings() : "") + "\n";
     for (const ComparisonRow& row : comparison.rows) {
-        const ComparedConfig& config = comparison.configs[row.config];
-        const ComparedView& view = comparison.views[row.view];
-        text += csv_cell(config.name) + "," + csv_cell(config.accelerator) + "," +
-                std::to_string(config.pes.value_or(0)) + "," +
-                std::to_string(config.tile_size.value_or(0)) + "," + csv_cell(view.scene) + "," +
-                std::to_string(view.camera) + "," + std::to_string(view.width) + "," +
-                std::to_string(view.height) + "," + csv_cell(row.fidelity);
+        text += csv_cell(comparison.configs[row.config].name) + run_cells(comparison, row);
         for_each_measure([&](Measure m) { text += "," + csv_number(row.measures[m]); });
-        text += part_cells(row, parts) + (sampled ? sampling_cells(row) : "") + "\n";
+        text += named_cells(row, &RunNumbers::parts, parts) + (sampled ? sampling_cells(row) : "") +
+                "\n";
     }
     return text;
 }

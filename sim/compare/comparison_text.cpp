@@ -210,15 +210,9 @@ std::string heading(const ComparedView& view, bool estimated) {
 
 /// A line on how much the frames differ, if there are several.
 std::string changes_line(const ComparedView& view) {
-    if (!view.p99_tile_candidates) {
-        return "";
-    }
-    FrameChanges changes;
-    changes.active_overlap = view.active_overlap;
-    changes.tile_churn = view.tile_churn;
-    changes.p99_tile_candidates = *view.p99_tile_candidates;
-    changes.footprint_gini = view.footprint_gini.value_or(0);
-    return folded("frames: " + changes_words(changes), output_columns(), 2) + "\n";
+    return view.changes
+               ? folded("frames: " + changes_words(*view.changes), output_columns(), 2) + "\n"
+               : "";
 }
 
 std::string frames_words(const Comparison& comparison) {

@@ -194,10 +194,7 @@ void add_config_command(CLI::App& program) {
                          "configuration file (YAML), or the name of an accelerator for its "
                          "defaults; without it, those of degs")
             ->type_name("FILE");
-    command->add_option("--set", options->overrides, "path.to.key=value; may be repeated")
-        ->type_name("KEY=VALUE")
-        ->take_all()
-        ->expected(1);
+    add_overrides_option(*command, options->overrides, "path.to.key=value; may be repeated");
     CLI::Option* pes =
         command
             ->add_option("--pes", options->pes,

@@ -58,8 +58,7 @@ Aim aim_of(const std::string& text, const std::string& place) {
                          ", but 'baseline' stands for a value on the right side of a limit only.");
     }
     for (const ExpressionStep& step : aim.expression.steps()) {
-        if (step.kind == Expression::Kind::Measure &&
-            name_of(step.measure).rfind("host.", 0) == 0) {
+        if (step.kind == Expression::Kind::Measure && is_of_host(step.measure)) {
             throw InputError(place + " names '" + name_of(step.measure) +
                              "', of which neither small nor large values are better; allowed are " +
                              config_words::list(allowed_goals([](Measure) { return true; })) + ".");

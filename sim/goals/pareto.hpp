@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace degs::sim {
@@ -11,30 +10,12 @@ namespace degs::sim {
 /// As many numbers for each design. The functions below take them as costs, which shall be small.
 using Goals = std::vector<double>;
 
+/// The positions of all: the front, the front of the rest, and so on, each in the order of the
+/// first goal. Of equal ones the first counts.
+std::vector<std::vector<std::size_t>> fronts_of(const std::vector<Goals>& goals);
+
 /// Positions of those that no other beats: none is at least as good in all goals and better in
 /// one. In the order of the first goal. Of equal ones the first counts.
 std::vector<std::size_t> pareto_front(const std::vector<Goals>& goals);
-
-/// Positions of the best `count`, at most all: the front, then the front of the rest, and so on.
-/// From the last front that does not fit, those drop out one by one whose neighbours in every goal
-/// are closest, in ratios; the best in a goal stay longest. In ascending order. (The crowding
-/// distance of K. Deb et al., A fast and elitist multiobjective genetic algorithm: NSGA-II, IEEE
-/// Trans. Evol. Comput. 2002, in logarithms, renewed after each loss.)
-std::vector<std::size_t> best_of(const std::vector<Goals>& goals, std::size_t count);
-
-/// As best_of(), of those whose `excess` over limits is 0; where they are too few, of the others,
-/// those that exceed least. The former come first.
-std::vector<std::size_t> best_within(const std::vector<Goals>& goals,
-                                     const std::vector<double>& excess, std::size_t count);
-
-/// How good one of several designs is.
-struct Standing {
-    std::size_t front = 0; ///< 0: nobody beats it; 1: only those of front 0 do; and so on
-    double room = 0; ///< the distances that decide in best_of(); infinite for the best in a goal
-};
-std::vector<Standing> standings_of(const std::vector<Goals>& goals);
-
-/// Spearman's correlation of ranks of two lists of the same length; empty for fewer than three.
-std::optional<double> rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
 
 } // namespace degs::sim

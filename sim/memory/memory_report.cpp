@@ -17,6 +17,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Latency of reads, or of writes if there are no reads: a posted write is answered by the queue.
+const LatencyHistogram& latency_of(const TrafficResult& result) {
+    return result.reads.samples() != 0 ? result.reads : result.writes;
+}
+
 /// Energy per bit that was moved.
 double pj_per_bit(const TrafficResult& result) {
     return mean_of(1e3 * result.energy.total_nj(), 8 * result.bytes);
@@ -127,10 +132,6 @@ std::string traffic_words(const MemoryFacts& facts) {
 }
 
 } // namespace
-
-const LatencyHistogram& latency_of(const TrafficResult& result) {
-    return result.reads.samples() != 0 ? result.reads : result.writes;
-}
 
 LoadPoint point_of(const TrafficResult& result, const dram::Config& memory) {
     const LatencyHistogram& latency = latency_of(result);

@@ -31,8 +31,6 @@ struct MemoryFacts {
     double wall_s = 0;
 };
 
-/// Latency of reads, or of writes if there are no reads: a posted write is answered by the queue.
-const LatencyHistogram& latency_of(const TrafficResult& result);
 LoadPoint point_of(const TrafficResult& result, const dram::Config& memory);
 /// The numbers of memory.json, with their units and what they mean. "curve.*" stands for every
 /// entry of the curve; its values are those of the saturated memory.

@@ -147,9 +147,7 @@ void add_motion_command(CLI::App& program) {
                       "is unlimited");
     add_addressed_overrides_option(*command, options->overrides);
     add_memory_option(*command, options->memory);
-    command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
+    add_jobs_option(*command, options->jobs);
     add_out_option(*command, options->out, "folder for tables and pictures");
     command->callback([options] { run(*options); });
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.hpp"
+#include "base/number_json.hpp"
 #include "sim/page/page_assets.hpp"
 #include "sim/plot/plot_svg.hpp"
 #include "sim/report/report.hpp"
@@ -26,21 +27,17 @@ std::string embedded(const ordered_json& json) {
     return text;
 }
 
-bool is_of_host(const std::string& measure) {
-    return measure.rfind("host.", 0) == 0;
-}
-
 ordered_json measures_json() {
     const std::vector<Statistic> report =
         document_statistics([](StatsVisitor& visitor) { describe(RunResult(), visitor); });
     ordered_json list = ordered_json::array();
     for (const Statistic& measure : measure_statistics(report)) {
-        if (!is_of_host(measure.path)) {
-            const Direction better = direction_of(measure_named(measure.path, "The page"));
+        const Measure named = measure_named(measure.path, "The page");
+        if (!is_of_host(named)) {
             list.push_back({{"name", measure.path},
                             {"unit", measure.unit},
                             {"sentence", measure.sentence},
-                            {"better", direction_words(better)}});
+                            {"better", direction_words(direction_of(named))}});
         }
     }
     return list;
@@ -51,7 +48,7 @@ ordered_json run_of(const PageFacts& facts, const Comparison& comparison, std::s
     ordered_json run = {{"point", facts.points[r]}, {"variant", row.config}, {"view", row.view}};
     run["measures"] = ordered_json::array();
     for_each_measure([&](Measure m) {
-        if (!is_of_host(name_of(m))) {
+        if (!is_of_host(m)) {
             run["measures"].push_back(number_json(row.measures[m]));
         }
     });

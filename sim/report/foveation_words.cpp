@@ -59,9 +59,7 @@ ordered_json image_json(const RunResult& result, std::size_t number) {
         json["levels"].push_back(level_json(result, image, level, number * count + level));
     }
     put_part(image.whole ? &*image.whole : nullptr, json);
-    char digits[9] = {};
-    std::snprintf(digits, sizeof digits, "%08x", pixel_crc32(image.image));
-    json["crc32"] = digits;
+    json["crc32"] = pixel_crc32(image.image);
     return json;
 }
 

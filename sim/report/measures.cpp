@@ -191,6 +191,10 @@ std::string name_of(Measure measure) {
     return rule.slot != nullptr ? std::string("slots.") + rule.slot->name : rule.name;
 }
 
+bool is_of_host(Measure measure) {
+    return name_of(measure).rfind("host.", 0) == 0;
+}
+
 bool has_mean(Measure measure) {
     return rule_of(measure).mean;
 }

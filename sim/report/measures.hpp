@@ -81,6 +81,8 @@ private:
 /// Name of a measure: a column of compare.csv, and with '/' for '.' its place below a run of
 /// compare.json.
 std::string name_of(Measure measure);
+/// Whether the machine that simulates decides it: then it differs from run to run.
+bool is_of_host(Measure measure);
 /// Whether its geometric mean over views says something.
 bool has_mean(Measure measure);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/report/report.hpp"
 
-#include <cstdio>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "base/number_json.hpp"
 #include "base/ratio.hpp"
 #include "config/config_document.hpp"
 #include "scene/cameras/lens_terms.hpp"
@@ -78,9 +78,7 @@ StatValue checksum(const RunResult& result) {
     if (result.accelerator.images.empty()) {
         return {};
     }
-    char digits[9] = {};
-    std::snprintf(digits, sizeof digits, "%08x", pixel_crc32(image_of(result, 0)));
-    return std::string(digits);
+    return pixel_crc32(image_of(result, 0));
 }
 
 void describe_image(const RunResult& result, StatsVisitor& v) {
@@ -183,16 +181,6 @@ ordered_json sampling_json(const SamplingFacts& sampling) {
     return json;
 }
 
-ordered_json changes_json(const FrameChanges& changes) {
-    const auto or_null = [](const std::optional<double>& value) {
-        return value ? ordered_json(*value) : ordered_json();
-    };
-    return {{"active_overlap", or_null(changes.active_overlap)},
-            {"tile_churn", or_null(changes.tile_churn)},
-            {"p99_tile_candidates", changes.p99_tile_candidates},
-            {"footprint_gini", changes.footprint_gini}};
-}
-
 ordered_json laws_json(const AcceleratorResult& run) {
     ordered_json json = ordered_json::array();
     for (const Conservation& c : run.conservation) {
@@ -213,12 +201,6 @@ ordered_json losses_json(const RunResult& result) {
 
 ordered_json tool_json() {
     return {{"name", "degs"}, {"version", DEGS_VERSION}};
-}
-
-ordered_json area_json(const RunConfig& config) {
-    return statistics_json(list_statistics([&config](StatsVisitor& visitor) {
-        visitor.section("area", config.accelerator().bill(), "What the design costs.");
-    }))["area"];
 }
 
 ordered_json scene_json(const SceneFacts& scene) {
@@ -268,6 +250,13 @@ ordered_json camera_json(const Camera& camera) {
         json["distortion"] = lens.terms;
     }
     return json;
+}
+
+ordered_json changes_json(const FrameChanges& changes) {
+    return {{"active_overlap", value_or_null(changes.active_overlap)},
+            {"tile_churn", value_or_null(changes.tile_churn)},
+            {"p99_tile_candidates", changes.p99_tile_candidates},
+            {"footprint_gini", changes.footprint_gini}};
 }
 
 ordered_json workload_json(const WorkloadFacts& workload, const SceneFacts& scene) {

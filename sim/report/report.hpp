@@ -4,7 +4,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/design/run_config.hpp"
 #include "sim/simulation/run_result.hpp"
 #include "sim/view/frame_facts.hpp"
 
@@ -21,9 +20,9 @@ void describe(const RunResult& result, StatsVisitor& visitor);
 
 // Parts that other commands report too.
 nlohmann::ordered_json tool_json();
-nlohmann::ordered_json area_json(const RunConfig& config);
 nlohmann::ordered_json scene_json(const SceneFacts& scene);
 nlohmann::ordered_json camera_json(const Camera& camera);
+nlohmann::ordered_json changes_json(const FrameChanges& changes);
 nlohmann::ordered_json workload_json(const WorkloadFacts& workload, const SceneFacts& scene);
 
 } // namespace degs::sim

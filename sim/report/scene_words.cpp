@@ -12,10 +12,6 @@ std::string quantile_words(const Quantiles& q) {
            three_digits(q.p99);
 }
 
-std::string point_words(const glm::dvec3& p) {
-    return "(" + three_digits(p.x) + ", " + three_digits(p.y) + ", " + three_digits(p.z) + ")";
-}
-
 std::string dropped_words(const SanitizeReport& dropped) {
     if (dropped.total() == 0) {
         return "none";
@@ -26,6 +22,10 @@ std::string dropped_words(const SanitizeReport& dropped) {
 }
 
 } // namespace
+
+std::string point_words(const glm::dvec3& p) {
+    return "(" + three_digits(p.x) + ", " + three_digits(p.y) + ", " + three_digits(p.z) + ")";
+}
 
 std::string scene_info(const Scene& scene) {
     const SceneStatistics s = measure_scene(scene.cloud, scene.dropped);

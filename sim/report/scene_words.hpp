@@ -8,6 +8,8 @@
 
 namespace degs::sim {
 
+/// "(1.2, -0.35, 4)"
+std::string point_words(const glm::dvec3& p);
 /// Describes a scene and its cameras.
 std::string scene_info(const Scene& scene);
 /// Describes the work of a view.

@@ -178,15 +178,10 @@ std::string energy_line(const AcceleratorResult& run) {
 
 /// The tiles that a sampled run simulated, and the interval that they gave.
 std::string sample_line(const SamplingFacts& sampling) {
-    const auto of_measure = [&sampling](const ReportInterval& interval) {
-        return interval.path == sampling.request.measure;
-    };
-    const auto interval =
-        std::find_if(sampling.intervals.begin(), sampling.intervals.end(), of_measure);
+    const ReportInterval* const interval = sampling.interval_of(sampling.request.measure);
     const std::string bounds =
-        interval == sampling.intervals.end()
-            ? ""
-            : " (" + scaled(interval->low) + " – " + scaled(interval->high) + ")";
+        interval == nullptr ? ""
+                            : " (" + scaled(interval->low) + " – " + scaled(interval->high) + ")";
     return grouped(sampling.measured) + " of " + grouped(sampling.tiles) + " tiles (" +
            percent(ratio_of(sampling.measured, sampling.tiles)) + " %)" + kDot +
            sampling.request.measure + " ±" + three_digits(100 * sampling.reached) +

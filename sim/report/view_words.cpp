@@ -2,7 +2,6 @@
 #include "sim/report/view_words.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -43,8 +42,6 @@ ordered_json share_json(const Share& share) {
 ordered_json view_json(const RunResult& result, std::size_t v) {
     const ViewFacts& view = result.views[v];
     const FrameDates& dates = result.accelerator.views[v];
-    char digits[9] = {};
-    std::snprintf(digits, sizeof digits, "%08x", pixel_crc32(result.accelerator.images[v]));
     ordered_json json;
     json["camera"] = camera_json(view.camera);
     json["visible"] = view.workload.visible;
@@ -54,7 +51,7 @@ ordered_json view_json(const RunResult& result, std::size_t v) {
     json["psnr_db"] = view.error ? number_json(view.error->psnr_db) : ordered_json();
     json["ssim"] = view.error ? number_json(view.error->ssim) : ordered_json();
     json["max_abs_error"] = view.error ? number_json(view.error->max_abs_error) : ordered_json();
-    json["crc32"] = digits;
+    json["crc32"] = pixel_crc32(result.accelerator.images[v]);
     return json;
 }
 

@@ -27,6 +27,15 @@ Measures measures_of(const ComparedRun& run) {
     return measures;
 }
 
+/// With the changes of the frames, which a frame alone does not know.
+ComparedView view_of(const ComparedRun& run) {
+    ComparedView view = run.frame.view;
+    if (run.path) {
+        view.changes = run.path->view.changes;
+    }
+    return view;
+}
+
 bool same_view(const ComparedView& a, const ComparedView& b) {
     return a.source == b.source && a.camera == b.camera && a.width == b.width &&
            a.height == b.height;
@@ -134,24 +143,13 @@ Comparison compare(const std::vector<std::string>& configs, const std::vector<Co
         comparison.configs.push_back(config);
     }
     for (const ComparedRun& run : runs) {
-        ComparisonRow row;
         const auto place = places.find(run.config);
         if (place == places.end()) {
             throw std::logic_error("a run of '" + run.config + "' is none of the comparison");
         }
-        row.config = place->second;
-        row.view = find_view(comparison.views, run.frame.view);
-        row.fidelity = run.frame.fidelity;
+        ComparisonRow row{run.frame, find_view(comparison.views, view_of(run)), place->second,
+                          run.report};
         row.measures = measures_of(run);
-        row.first_task_ms = run.frame.first_task_ms;
-        row.last_task_ms = run.frame.last_task_ms;
-        row.sampled_share = run.frame.sampled_share;
-        row.cycles_low = run.frame.cycles_low;
-        row.cycles_high = run.frame.cycles_high;
-        row.limited_by = run.frame.limited_by;
-        row.stages = run.frame.stages;
-        row.parts = run.frame.parts;
-        row.report = run.report;
         read_config(run.frame, comparison.configs[row.config]);
         comparison.rows.push_back(row);
     }

@@ -32,16 +32,10 @@ struct ComparedConfig {
     std::optional<double> area_mm2;
 };
 
-struct ComparisonRow {
+/// The numbers of the frame, with what its comparison adds.
+struct ComparisonRow : RunNumbers {
     std::size_t view = 0, config = 0; ///< into Comparison
-    std::string fidelity;             ///< as in RunSummary
-    Measures measures;
-    std::optional<double> first_task_ms, last_task_ms; ///< of the frame, as what follows
-    std::optional<double> sampled_share, cycles_low, cycles_high;
-    std::string limited_by;
-    std::vector<std::pair<std::string, double>> stages; ///< with their busy shares
-    std::vector<std::pair<std::string, double>> parts;  ///< as in RunSummary
-    std::string report;
+    std::string report;               ///< as in ComparedRun
 };
 
 struct Comparison {

@@ -16,8 +16,18 @@
 #include <vector>
 
 #include "config/config_words.hpp"
+#include "sim/simulation/frame_changes.hpp"
 
 namespace degs::sim {
+
+/// The fields of the changes, in their order.
+template <class Fields, class Changes>
+void each_change(Fields& fields, Changes& changes) {
+    fields("active_overlap", changes.active_overlap);
+    fields("tile_churn", changes.tile_churn);
+    fields("p99_tile_candidates", changes.p99_tile_candidates);
+    fields("footprint_gini", changes.footprint_gini);
+}
 
 /// Writes the fields that it is called with, in this order.
 class MessageWriter {
@@ -50,6 +60,12 @@ private:
         return lines;
     }
     static std::string text(double value) { return config_words::number(value); }
+    /// A message in the message.
+    static std::string text(const FrameChanges& changes) {
+        MessageWriter inner("changes");
+        each_change(inner, changes);
+        return inner.message;
+    }
     template <class Value>
     static std::string text(const std::optional<Value>& value) {
         return value ? text(*value) : "";
@@ -128,6 +144,11 @@ private:
             take(name, line.substr(0, space), value);
             values.emplace_back(line.substr(std::min(space + 1, line.size())), value);
         }
+    }
+    static void take(const std::string&, const std::string& text, FrameChanges& changes) {
+        MessageReader inner("changes", text);
+        each_change(inner, changes);
+        inner.expect_nothing_left();
     }
     template <class Number>
     static void take(const std::string& name, const std::string& text, Number& value) {

@@ -9,6 +9,7 @@
 #include "base/json_text.hpp"
 #include "base/number_json.hpp"
 #include "base/visible_text.hpp"
+#include "sim/report/report.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -42,10 +43,11 @@ void put_parts(ordered_json& run, const ComparisonRow& row) {
     }
 }
 
-std::vector<std::string> part_names(const std::vector<ComparisonRow>& rows) {
+std::vector<std::string> names_of(const std::vector<ComparisonRow>& rows,
+                                  NamedNumbers RunNumbers::*list) {
     std::vector<std::string> names;
     for (const ComparisonRow& row : rows) {
-        for (const auto& [name, value] : row.parts) {
+        for (const auto& [name, value] : row.*list) {
             if (std::find(names.begin(), names.end(), name) == names.end()) {
                 names.push_back(name);
             }
@@ -62,14 +64,29 @@ std::string part_headings(const std::vector<std::string>& names) {
     return text;
 }
 
-std::string part_cells(const ComparisonRow& row, const std::vector<std::string>& names) {
+std::string named_cells(const ComparisonRow& row, NamedNumbers RunNumbers::*list,
+                        const std::vector<std::string>& names) {
+    const NamedNumbers& numbers = row.*list;
     std::string text;
     for (const std::string& name : names) {
-        const auto part = std::find_if(row.parts.begin(), row.parts.end(),
-                                       [&name](const auto& each) { return each.first == name; });
-        text += "," + (part == row.parts.end() ? "" : csv_number(part->second));
+        const auto found = std::find_if(numbers.begin(), numbers.end(),
+                                        [&name](const auto& each) { return each.first == name; });
+        text += "," + (found == numbers.end() ? "" : csv_number(found->second));
     }
     return text;
+}
+
+std::string run_headings() {
+    return ",accelerator,pes,tile_size,scene,camera,width,height,fidelity";
+}
+
+std::string run_cells(const Comparison& comparison, const ComparisonRow& row) {
+    const ComparedConfig& config = comparison.configs[row.config];
+    const ComparedView& view = comparison.views[row.view];
+    return "," + csv_cell(config.accelerator) + "," + std::to_string(config.pes.value_or(0)) + "," +
+           std::to_string(config.tile_size.value_or(0)) + "," + csv_cell(view.scene) + "," +
+           std::to_string(view.camera) + "," + std::to_string(view.width) + "," +
+           std::to_string(view.height) + "," + csv_cell(row.fidelity);
 }
 
 ordered_json view_json(const ComparedView& view) {
@@ -85,11 +102,8 @@ ordered_json view_json(const ComparedView& view) {
     if (view.views > 1) {
         json["views_per_frame"] = view.views;
     }
-    if (view.p99_tile_candidates) { // of several frames
-        json["changes"] = {{"active_overlap", value_or_null(view.active_overlap)},
-                           {"tile_churn", value_or_null(view.tile_churn)},
-                           {"p99_tile_candidates", *view.p99_tile_candidates},
-                           {"footprint_gini", value_or_null(view.footprint_gini)}};
+    if (view.changes) {
+        json["changes"] = changes_json(*view.changes);
     }
     return json;
 }

@@ -11,11 +11,6 @@
 
 namespace degs::sim {
 
-template <class Value>
-nlohmann::ordered_json value_or_null(const std::optional<Value>& value) {
-    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
-}
-
 /// As degs::number_json(), which is of infinity and of what is not a number. Counts are written as
 /// such, what does not exist is null.
 nlohmann::ordered_json number_json(const std::optional<double>& value);
@@ -25,11 +20,18 @@ void put_measure(nlohmann::ordered_json& run, Measure measure, const std::option
 
 /// Puts the numbers of single buffers and blocks into a run likewise.
 void put_parts(nlohmann::ordered_json& run, const ComparisonRow& row);
-/// The names of all of them, in the order in which rows first have them; the headings of their
-/// columns in CSV; and the cells of a row.
-std::vector<std::string> part_names(const std::vector<ComparisonRow>& rows);
+/// The headings of their columns in CSV.
 std::string part_headings(const std::vector<std::string>& names);
-std::string part_cells(const ComparisonRow& row, const std::vector<std::string>& names);
+/// The names of all stages or parts, in the order in which rows first have them; and the cells of a
+/// row in CSV.
+std::vector<std::string> names_of(const std::vector<ComparisonRow>& rows,
+                                  NamedNumbers RunNumbers::*list);
+std::string named_cells(const ComparisonRow& row, NamedNumbers RunNumbers::*list,
+                        const std::vector<std::string>& names);
+
+/// The columns in CSV that say what was run on which view: headings, and the cells of a row.
+std::string run_headings();
+std::string run_cells(const Comparison& comparison, const ComparisonRow& row);
 
 nlohmann::ordered_json view_json(const ComparedView& view);
 

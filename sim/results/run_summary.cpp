@@ -31,10 +31,7 @@ void each_field(Fields& fields, Summary& summary) {
     fields("view.gaussians", summary.view.gaussians);
     fields("view.visible", summary.view.visible);
     fields("view.fragments", summary.view.fragments);
-    fields("view.active_overlap", summary.view.active_overlap);
-    fields("view.tile_churn", summary.view.tile_churn);
-    fields("view.p99_tile_candidates", summary.view.p99_tile_candidates);
-    fields("view.footprint_gini", summary.view.footprint_gini);
+    fields("view.changes", summary.view.changes);
     for_each_measure([&](Measure m) { fields("measure." + name_of(m), summary.measures[m]); });
     fields("first_task_ms", summary.first_task_ms);
     fields("last_task_ms", summary.last_task_ms);
@@ -111,6 +108,7 @@ RunSummary summary_of(const RunResult& result, int camera) {
     if (result.workload.reference) {
         summary.view.fragments = result.workload.reference->fragments;
     }
+    summary.view.changes = result.changes;
     summary.measures = measures_of(result);
     const AcceleratorResult& run = result.accelerator;
     if (!run.window.empty()) {
@@ -119,11 +117,9 @@ RunSummary summary_of(const RunResult& result, int camera) {
     }
     if (result.sampling) {
         summary.sampled_share = ratio_of(result.sampling->measured, result.sampling->tiles);
-        for (const ReportInterval& interval : result.sampling->intervals) {
-            if (interval.path == "timing.cycles") {
-                summary.cycles_low = interval.low;
-                summary.cycles_high = interval.high;
-            }
+        if (const ReportInterval* cycles = result.sampling->interval_of("timing.cycles")) {
+            summary.cycles_low = cycles->low;
+            summary.cycles_high = cycles->high;
         }
     }
     summary.limited_by = limiting_stage(run);

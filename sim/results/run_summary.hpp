@@ -11,6 +11,7 @@
 
 #include "sim/analytic/analytic_run.hpp"
 #include "sim/report/measures.hpp"
+#include "sim/simulation/frame_changes.hpp"
 
 namespace degs::sim {
 
@@ -19,34 +20,38 @@ struct ComparedView {
     int camera = 0; ///< position in the scene's list
     int width = 0, height = 0;
     std::size_t gaussians = 0, visible = 0;
-    std::optional<std::size_t> fragments; ///< of the reference
-    /// The next four of all frames, if there are several; see FrameChanges.
-    std::optional<double> active_overlap{}, tile_churn{}, p99_tile_candidates{}, footprint_gini{};
-    int views = 1;        ///< of a frame
+    std::optional<std::size_t> fragments;  ///< of the reference
+    std::optional<FrameChanges> changes{}; ///< if there are several frames
+    int views = 1;                         ///< of a frame
     bool dynamic = false; ///< frames of a scene that changes; not part of the message
 };
 
-/// One configuration on one view.
-struct RunSummary {
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
+/// What one configuration did on one view.
+struct RunNumbers {
     std::string fidelity; ///< exact, strict, sampled, or analytic: an estimate without simulation
+    Measures measures;
+    std::optional<double> first_task_ms;           ///< from the start of the run
+    std::optional<double> last_task_ms;            ///< end, from the start of the run
+    std::optional<double> sampled_share;           ///< of the tiles; empty: all of them
+    std::optional<double> cycles_low, cycles_high; ///< 95 % interval, of a sample
+    std::string limited_by;                        ///< the busiest stage, or memory
+    NamedNumbers stages;                           ///< with the share of the run they worked
+    NamedNumbers parts; ///< single buffers and blocks by their names, see part_statistics()
+};
+
+/// One configuration on one view.
+struct RunSummary : RunNumbers {
     std::string accelerator;
     int pes = 0, tile_size = 0;
     ComparedView view;
-    Measures measures;
-    std::optional<double> first_task_ms;                ///< from the start of the run
-    std::optional<double> last_task_ms;                 ///< end, from the start of the run
-    std::optional<double> sampled_share;                ///< of the tiles; empty: all of them
-    std::optional<double> cycles_low, cycles_high;      ///< 95 % interval, of a sample
-    std::string limited_by;                             ///< the busiest stage, or memory
-    std::vector<std::pair<std::string, double>> stages; ///< with the share of the run they worked
-    /// Numbers of single buffers and blocks by their names, see part_statistics().
-    std::vector<std::pair<std::string, double>> parts;
     std::vector<std::string> notes;    ///< sentences about the scene, the same in all its runs
     std::vector<std::string> warnings; ///< other sentences; see warnings.hpp
     std::string report;                ///< report.json of the run; empty if nobody wants it
 };
 
-/// The names of RunSummary::parts, with * for that of a buffer or block, units and meanings.
+/// The names of RunNumbers::parts, with * for that of a buffer or block, units and meanings.
 std::vector<Statistic> part_statistics();
 
 /// Without the report. `camera` is the view's position in the scene's list.
@@ -56,7 +61,7 @@ RunSummary summary_of(const RunResult& result, int camera);
 RunSummary summary_of(const AnalyticRun& run, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 13;
+constexpr int kSummaryVersion = 14;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

@@ -89,17 +89,6 @@ std::string SharedView::run(const RunRequest& request, bool path) const {
     result.host.workload_s = workload_s;
     result.host.wall_s = wall.seconds();
     RunSummary summary = summary_of(result, camera);
-    if (frames.size() > per_frame) {
-        std::vector<const FrameWorkload*> all;
-        for (const FrameWorkload& frame : frames) {
-            all.push_back(&frame);
-        }
-        const FrameChanges changes = frame_changes(first_views(all, per_frame));
-        summary.view.active_overlap = changes.active_overlap;
-        summary.view.tile_churn = changes.tile_churn;
-        summary.view.p99_tile_candidates = changes.p99_tile_candidates;
-        summary.view.footprint_gini = changes.footprint_gini;
-    }
     summary.report = json_text(report(result));
     return message_of(summary);
 }

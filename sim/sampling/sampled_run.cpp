@@ -300,6 +300,13 @@ Verdict verdict_on(const Sampler& sampler, const FrameEstimate& estimate, Sampli
 
 } // namespace
 
+const ReportInterval* SamplingFacts::interval_of(const std::string& path) const {
+    const auto found =
+        std::find_if(intervals.begin(), intervals.end(),
+                     [&path](const ReportInterval& interval) { return interval.path == path; });
+    return found == intervals.end() ? nullptr : &*found;
+}
+
 SampledResult run_sampled(const AcceleratorConfig& config, const FrameWorkload& frame,
                           Fidelity fidelity, const BuildOptions& options,
                           const SamplingRequest& request, Progress& progress) {

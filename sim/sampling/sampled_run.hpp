@@ -28,6 +28,7 @@ struct SamplingFacts {
     std::size_t groups = 0;
     double reached = 0; ///< half of the interval of request.measure over its value
     std::vector<ReportInterval> intervals;
+    const ReportInterval* interval_of(const std::string& path) const; ///< null: there is none
     /// What keeps a sample from holding the promise; empty if nothing does.
     std::string refusal;
 };

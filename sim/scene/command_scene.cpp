@@ -79,9 +79,7 @@ void add_info(CLI::App& scene) {
     CLI::App* command =
         scene.add_subcommand("info", "statistics of a scene and, with --camera, of a view");
     ViewRequest& view = options->view;
-    command->add_option("scene", view.scene, "scene file, or synthetic:NAME[,...]")
-        ->type_name("SCENE")
-        ->required();
+    add_scene_argument(*command, view.scene);
     add_camera_file_option(*command, view.camera_file);
     options->camera = command
                           ->add_option_function<std::string>(
@@ -149,9 +147,7 @@ void add_convert(CLI::App& scene) {
     auto options = std::make_shared<Options>();
     CLI::App* command = scene.add_subcommand(
         "convert", "write a scene in another format, without the Gaussians that cannot be drawn");
-    command->add_option("scene", options->in, "scene file, or synthetic:NAME[,...]")
-        ->type_name("SCENE")
-        ->required();
+    add_scene_argument(*command, options->in);
     add_scene_out(*command, options->out, writable_scene_extensions());
     command->callback([options] {
         check_scene_writable(options->out);

@@ -11,6 +11,7 @@
 #include "scene/tiling/scene_tiling.hpp"
 #include "sim/scene/scene_out_option.hpp"
 #include "sim/scene/scene_output.hpp"
+#include "sim/shell/view_options.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -47,9 +48,7 @@ void add_scene_tile(CLI::App& scene) {
     auto options = std::make_shared<TileOptions>();
     CLI::App* command = scene.add_subcommand(
         "tile", "write a large scene: copies of one, side by side on the ground");
-    command->add_option("scene", options->scene, "scene file, or synthetic:NAME[,...]")
-        ->type_name("SCENE")
-        ->required();
+    add_scene_argument(*command, options->scene);
     command
         ->add_option_function<std::string>(
             "--copies",

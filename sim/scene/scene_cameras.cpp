@@ -10,6 +10,7 @@
 #include "scene/cameras/lens_terms.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 #include "sim/report/report.hpp"
+#include "sim/report/scene_words.hpp"
 #include "sim/report/terminal.hpp"
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"
@@ -20,10 +21,6 @@
 
 namespace degs::sim {
 namespace {
-
-std::string triple_words(const glm::dvec3& v) {
-    return "(" + three_digits(v.x) + ", " + three_digits(v.y) + ", " + three_digits(v.z) + ")";
-}
 
 /// " · lens OPENCV, 12.3 px in the corner"; empty for a pinhole.
 std::string lens_words(const Camera& camera) {
@@ -39,11 +36,9 @@ void list_cameras(const ViewRequest& view, const std::string& out) {
     print_warnings(scene.notes);
     print(cameras_text(scene));
     if (!out.empty()) {
-        const std::filesystem::path file(out);
-        const std::string folder = file.parent_path().string();
-        const OutputFolder target(folder.empty() ? "." : folder, {file.filename().string()});
-        target.write_json(file.filename().string(),
-                          cameras_json(scene.cameras, scene.generated_view));
+        const std::string name = std::filesystem::path(out).filename().string();
+        const OutputFolder target(parent_folder(out), {name});
+        target.write_json(name, cameras_json(scene.cameras, scene.generated_view));
         print(visible(out) + ": " + std::to_string(scene.cameras.size()) +
               (scene.generated_view ? " generated view(s)" : " camera(s)") + "\n");
     }
@@ -70,8 +65,8 @@ std::string cameras_text(const Scene& scene) {
         block.emplace_back(
             "camera " + std::to_string(i),
             size_words(camera) + " " + camera.name + (scene.generated_view ? " (generated)" : "") +
-                " · at " + triple_words(camera.position) + " · looks along " +
-                triple_words(camera.camera_to_world[2]) + " · sees " + three_digits(angles.x) +
+                " · at " + point_words(camera.position) + " · looks along " +
+                point_words(camera.camera_to_world[2]) + " · sees " + three_digits(angles.x) +
                 "° × " + three_digits(angles.y) + "°" + lens_words(camera));
     }
     return layout(block);
@@ -85,9 +80,7 @@ void add_scene_cameras(CLI::App& scene) {
     auto options = std::make_shared<Options>();
     CLI::App* command = scene.add_subcommand(
         "cameras", "list the views of a scene, and write them as cameras.json");
-    command->add_option("scene", options->view.scene, "scene file, or synthetic:NAME[,...]")
-        ->type_name("SCENE")
-        ->required();
+    add_scene_argument(*command, options->view.scene);
     add_camera_file_option(*command, options->view.camera_file);
     command->add_option("--out", options->out, "file to write, for --camera-file")
         ->type_name("FILE");

@@ -32,12 +32,6 @@ namespace {
 namespace fs = std::filesystem;
 using SceneJson = nlohmann::ordered_json;
 
-/// The folder of a file that is going to be written; "." if it has none.
-std::string folder_of(const std::string& file) {
-    const std::string folder = fs::path(file).parent_path().string();
-    return folder.empty() ? "." : folder;
-}
-
 /// Whether the file holds these cameras: the scene has them from it, or it is what would be
 /// written. Does not read it as an input, which no output may replace.
 bool holds(const std::string& camera_file, const std::vector<Camera>& cameras) {
@@ -59,7 +53,7 @@ std::string namesake_of(const std::string& file) {
     const fs::path own(file);
     const std::vector<std::string> extensions = scene_extensions();
     std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(file), error)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(parent_folder(file), error)) {
         const fs::path other = entry.path().filename();
         if (other != own.filename() && other.stem() == own.stem() &&
             std::find(extensions.begin(), extensions.end(), other.extension().string()) !=
@@ -126,7 +120,7 @@ void write_scene(const std::string& file, const std::string& words,
     if (!stays && !cameras.empty()) {
         files.push_back(own.filename().string());
     }
-    const OutputFolder folder(folder_of(file), files);
+    const OutputFolder folder(parent_folder(file), files);
     folder.replace([&] {
         write();
         if (files.size() > 1) {

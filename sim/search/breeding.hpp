@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "sim/goals/pareto.hpp"
+#include "sim/search/selection.hpp"
 #include "sim/sweep/design_space.hpp"
 
 namespace degs::sim {

@@ -134,9 +134,7 @@ void add_explore_command(CLI::App& program) {
                      "'area_mm2<=2.5, latency_ms<=1.02*baseline'")
         ->type_name("LIMIT,...");
     add_evolution_options(*command, options->evolution);
-    command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
+    add_jobs_option(*command, options->jobs);
     add_out_option(*command, options->out, "folder for the front, the estimates and the reports");
     add_shard_options(*command, *options);
     command->get_option("--seed")->description(

@@ -6,8 +6,9 @@
 #include <limits>
 #include <set>
 
-#include "sim/goals/hypervolume.hpp"
 #include "sim/goals/judgement.hpp"
+#include "sim/search/hypervolume.hpp"
+#include "sim/search/selection.hpp"
 
 namespace degs::sim {
 namespace {

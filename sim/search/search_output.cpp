@@ -12,6 +12,7 @@
 #include "sim/plot/plot_svg.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/result_words.hpp"
+#include "sim/search/rank_correlation.hpp"
 #include "sim/search/search_record.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"

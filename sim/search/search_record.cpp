@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "base/median.hpp"
 #include "sim/results/result_words.hpp"
 #include "sim/text/words.hpp"
 
@@ -51,13 +53,9 @@ std::string error_words(const StudyPlan& plan, const Search& search) {
                 errors.push_back(std::abs(*belief.goals[g] / *goal - 1));
             }
         }
-        if (errors.empty()) {
-            continue;
-        }
-        std::sort(errors.begin(), errors.end());
-        const double median = (errors[(errors.size() - 1) / 2] + errors[errors.size() / 2]) / 2;
-        if (median > most) {
-            most = median;
+        const std::optional<double> median = median_of(std::move(errors));
+        if (median && *median > most) {
+            most = *median;
             whose = g;
         }
     }

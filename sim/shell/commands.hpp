@@ -26,7 +26,9 @@ void add_registers_command(CLI::App& program);
 void add_help_command(CLI::App& program);
 
 /// `--set`, for commands that take one configuration file.
-void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides);
+void add_overrides_option(
+    CLI::App& command, std::vector<std::string>& overrides,
+    const char* meaning = "path.to.key=value overrides the file; may be repeated");
 /// `--set`, for commands that take several configuration files, whose designs have names.
 void add_addressed_overrides_option(CLI::App& command, std::vector<std::string>& overrides);
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -41,6 +40,11 @@ bool same_output(const std::string& a, const std::string& b) {
 }
 
 } // namespace
+
+std::string parent_folder(const std::string& file) {
+    const std::string folder = fs::path(file).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
 
 void refuse_output_in_use(const std::string& path) {
     const auto refuse = [&path](const std::string& other, const char* why) {
@@ -97,7 +101,7 @@ std::string OutputFolder::path(const std::string& file) const {
 }
 
 void OutputFolder::write_text(const std::string& file, const std::string& text) const {
-    write_whole(path(file), [&](std::ostream& out) { out << text; });
+    write_whole(path(file), text);
 }
 
 void OutputFolder::write_json(const std::string& file, const nlohmann::ordered_json& value) const {

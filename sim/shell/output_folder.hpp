@@ -43,6 +43,9 @@ private:
     std::vector<std::string> paths_;
 };
 
+/// The folder of a file; "." if its path has none.
+std::string parent_folder(const std::string& file);
+
 /// Throws InputError if `path`, which is going to be written, is an input of this process or a file
 /// of an OutputFolder that lives; also under another spelling of its path, or through a link.
 void refuse_output_in_use(const std::string& path);

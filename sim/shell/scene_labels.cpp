@@ -9,6 +9,7 @@
 #include "scene/scene.hpp"
 #include "scene/scene_spec.hpp"
 #include "sim/shell/scene_list.hpp"
+#include "sim/text/comma_parts.hpp"
 
 namespace degs::sim {
 namespace {
@@ -28,12 +29,9 @@ constexpr std::size_t kSettings = static_cast<std::size_t>(-1);
 using Parts = std::vector<std::size_t>;
 
 std::set<std::string> pieces_of(const std::string& text) {
-    std::set<std::string> pieces;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        pieces.insert(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
+    const std::vector<std::string> parts = comma_parts(text);
+    std::set<std::string> pieces(parts.begin(), parts.end());
+    pieces.erase(""); // the only part of an empty text
     return pieces;
 }
 

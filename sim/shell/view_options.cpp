@@ -24,6 +24,12 @@ CLI::Option* add_config_option(CLI::App& command, std::string& config) {
     return command.add_option("config", config, "configuration file (YAML)")->type_name("FILE");
 }
 
+void add_scene_argument(CLI::App& command, std::string& scene) {
+    command.add_option("scene", scene, "scene file, or synthetic:NAME[,...]")
+        ->type_name("SCENE")
+        ->required();
+}
+
 CLI::Option* add_camera_file_option(CLI::App& command, std::string& file) {
     return command
         .add_option("--camera-file", file,
@@ -82,6 +88,12 @@ void add_projection_options(CLI::App& command, RenderingRules& rules) {
 
 CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning) {
     return command.add_option("--out", folder, meaning)->type_name("FOLDER")->capture_default_str();
+}
+
+void add_jobs_option(CLI::App& command, int& jobs) {
+    command.add_option("--jobs", jobs, "simulations at a time, each in its own process")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
 }
 
 void add_view_options(CLI::App& command, ViewRequest& request) {

@@ -26,6 +26,9 @@ void add_resolution_option(CLI::App& command, std::string& resolution);
 /// Adds the configuration file, an argument.
 CLI::Option* add_config_option(CLI::App& command, std::string& config);
 
+/// Adds the scene, an argument.
+void add_scene_argument(CLI::App& command, std::string& scene);
+
 /// Adds --camera-file.
 CLI::Option* add_camera_file_option(CLI::App& command, std::string& file);
 
@@ -43,6 +46,9 @@ void add_projection_options(CLI::App& command, RenderingRules& rules);
 
 /// Adds --out, the folder for results.
 CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning);
+
+/// Adds --jobs, of commands that run several simulations.
+void add_jobs_option(CLI::App& command, int& jobs);
 
 /// Adds --frames and --path-step.
 void add_path_options(CLI::App& command, PathRequest& request);

@@ -97,7 +97,6 @@ double FrameChangesSum::p99_list_length() const {
 
 FrameChanges FrameChangesSum::changes() const {
     FrameChanges changes;
-    changes.frames = frames_;
     changes.p99_tile_candidates = p99_list_length();
     changes.footprint_gini = footprint_gini_;
     const auto pairs = static_cast<double>(frames_) - 1;
@@ -108,14 +107,6 @@ FrameChanges FrameChangesSum::changes() const {
         changes.tile_churn = churned_ / pairs;
     }
     return changes;
-}
-
-FrameChanges frame_changes(const std::vector<const FrameWorkload*>& frames) {
-    FrameChangesSum sum(frames.size());
-    for (const FrameWorkload* frame : frames) {
-        sum.add(borrowed(*frame));
-    }
-    return sum.changes();
 }
 
 } // namespace degs::sim

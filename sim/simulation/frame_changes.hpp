@@ -15,7 +15,6 @@
 namespace degs::sim {
 
 struct FrameChanges {
-    std::size_t frames = 0;
     std::optional<double> active_overlap; ///< 0..1; empty if the frames have different Gaussians
     std::optional<double> tile_churn;     ///< 0..1; empty if the frames have different tiles
     double p99_tile_candidates = 0;       ///< splats in a tile's list
@@ -28,7 +27,7 @@ public:
     /// `frames`: as many as will be added, at least one.
     explicit FrameChangesSum(std::size_t frames) : frames_(frames) {}
     void add(FramePointer frame);
-    /// When all have been added.
+    /// When all have been added. A single frame has no overlap and no churn.
     FrameChanges changes() const;
 
 private:
@@ -42,9 +41,6 @@ private:
     double overlap_ = 0, churned_ = 0, footprint_gini_ = 0;
     bool same_gaussians_ = true, same_tiles_ = true; ///< so far
 };
-
-/// The changes from frame to frame; at least one frame. A single frame has no overlap and no churn.
-FrameChanges frame_changes(const std::vector<const FrameWorkload*>& frames);
 
 /// "active overlap 0.987 · tile churn 4.6 % · P99 of tile candidates 1.2 k · footprint Gini 0.85";
 /// what is missing is left out.

@@ -160,7 +160,6 @@ SocFrame SocHost::render() {
     degs_counters counters{};
     degs_read_counters(&device_, &counters);
     frame.cycles = counters.cycles;
-    frame.load_cycles = counters.load_cycles;
     frame.bytes_read = counters.bytes_read;
     frame.bytes_written = counters.bytes_written;
     frame.fragments = counters.fragments;

@@ -18,8 +18,7 @@ namespace degs::sim {
 
 /// A frame as the driver of the accelerator saw it.
 struct SocFrame {
-    std::uint64_t cycles = 0, load_cycles = 0;
-    std::uint64_t bytes_read = 0, bytes_written = 0, fragments = 0;
+    std::uint64_t cycles = 0, bytes_read = 0, bytes_written = 0, fragments = 0;
     double latency_ns = 0; ///< start written to interrupt seen
     std::uint64_t frame_buffer = 0;
 };

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "dram/channels.hpp"
 #include "sim/design/run_config.hpp"
-#include "sim/memory/memory_report.hpp"
 #include "sim/soc/cpu_traffic.hpp"
 #include "sim/soc/display.hpp"
 #include "sim/soc/soc_host.hpp"

@@ -13,6 +13,7 @@
 #include "sim/analytic/analytic_run.hpp"
 #include "sim/command_line/combinations.hpp"
 #include "sim/study/addressed_overrides.hpp"
+#include "sim/text/comma_parts.hpp"
 
 namespace degs::sim {
 namespace {
@@ -105,16 +106,6 @@ void check_names(const std::vector<StudyDesign>& drafts) {
                              "; NAME=FILE keeps them apart.");
         }
     }
-}
-
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> parts;
-    std::size_t begin = 0;
-    for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
-        end = text.find(',', begin);
-        parts.push_back(text.substr(begin, end - begin));
-    }
-    return parts;
 }
 
 } // namespace
@@ -284,7 +275,7 @@ std::optional<std::vector<int>> parse_cameras(const std::string& text) {
         return {};
     }
     std::vector<int> cameras;
-    for (const std::string& part : split(text)) {
+    for (const std::string& part : comma_parts(text)) {
         const std::optional<int> position = camera_position(part);
         if (!position) {
             throw InputError("--camera is '" + text +
@@ -302,7 +293,7 @@ std::optional<std::vector<int>> parse_cameras(const std::string& text) {
 
 std::vector<ImageSize> parse_resolutions(const std::string& text) {
     std::vector<ImageSize> sizes;
-    for (const std::string& part : split(text)) {
+    for (const std::string& part : comma_parts(text)) {
         const ImageSize wanted = image_size(part);
         for (const ImageSize& size : sizes) {
             if (size.width == wanted.width && size.height == wanted.height) {

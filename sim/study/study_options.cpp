@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/study/study_options.hpp"
 
-#include <utility>
-
-#include "config/config_words.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
 #include "sim/study/compare_request.hpp"
@@ -127,64 +124,6 @@ Study study_of(const StudyOptions& options) {
     replace_views(options, study);
     study.sampling = sampling_for_runs(options.within, options.seed);
     return study;
-}
-
-std::vector<std::string> words_of(const StudyOptions& options) {
-    // A name that begins with '-' would be read as an option.
-    std::vector<std::string> words{options.file.rfind('-', 0) == 0 ? "./" + options.file
-                                                                   : options.file};
-    const auto add = [&words](const char* option, const std::string& value) {
-        if (value.rfind('-', 0) == 0) {
-            words.push_back(std::string(option) + "=" + value);
-        } else {
-            words.insert(words.end(), {option, value});
-        }
-    };
-    for (const std::string& text : options.overrides) {
-        add("--set", text);
-    }
-    for (const std::string& scene : options.scenes) {
-        add("--scene", scene);
-    }
-    for (const auto& [option, value] :
-         {std::pair("--camera", options.cameras), std::pair("--camera-file", options.camera_file),
-          std::pair("--memory", options.memory), std::pair("--resolution", options.resolutions),
-          std::pair("--fidelity", options.fidelity), std::pair("--crop", options.crop)}) {
-        if (!value.empty()) {
-            add(option, value);
-        }
-    }
-    if (options.width) {
-        add("--width", std::to_string(*options.width));
-    }
-    if (options.has_frames) {
-        add("--frames", std::to_string(options.path.frames));
-    }
-    if (options.has_step) {
-        add("--path-step", config_words::number(options.path.step_degrees));
-    }
-    const GroupRequest& group = options.path.group;
-    if (group.eyes_m) {
-        add("--eyes", config_words::number(*group.eyes_m));
-    }
-    if (options.has_units) {
-        add("--units-per-metre", config_words::number(group.units_per_metre));
-    }
-    if (!group.cameras.empty()) {
-        add("--views", positions_words(group.cameras));
-    }
-    if (options.within) {
-        add("--within", *options.within);
-        add("--seed", std::to_string(options.seed));
-    }
-    for (const auto& [option, given] :
-         {std::pair("--quick", options.quick), std::pair("--array-only", options.array_only),
-          std::pair("--no-reference", options.no_reference)}) {
-        if (given) {
-            words.emplace_back(option);
-        }
-    }
-    return words;
 }
 
 } // namespace degs::sim

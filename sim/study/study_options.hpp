@@ -43,9 +43,6 @@ void add_study_view_options(CLI::App& command, ViewOptions& options);
 /// Puts what the options say in the place of what the study says.
 void replace_views(const ViewOptions& options, StudyViews& views);
 
-/// The options as words of a command line, the file first.
-std::vector<std::string> words_of(const StudyOptions& options);
-
 /// Reads the study. Throws InputError.
 Study study_of(const StudyOptions& options);
 

@@ -8,6 +8,7 @@
 #include "degs/error.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 #include "scene/scene_cameras.hpp"
+#include "sim/command_line/stated_command.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/scene_words.hpp"
 #include "sim/runs/view_runs.hpp"
@@ -19,6 +20,7 @@
 #include "sim/sweep/slurm.hpp"
 #include "sim/sweep/sweep_results.hpp"
 #include "sim/sweep/sweep_session.hpp"
+#include "sim/text/shell_word.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/warnings.hpp"
 #include "sim/text/words.hpp"
@@ -42,6 +44,7 @@ struct SweepOptions {
     std::string out = "out";
     std::string sort; ///< goals; empty: no table
     std::size_t top = 10;
+    std::string stated; ///< "sweep study.yaml ...", see stated_command()
 };
 
 /// The table that was asked for.
@@ -58,14 +61,12 @@ std::vector<std::size_t> own_points(const std::optional<std::string>& given, std
     return points_of(shard_of(points, task.k, task.n));
 }
 
-/// This program with the same study.
-std::vector<std::string> command_of(const SweepOptions& options) {
+/// This program with the same study and the same place for results.
+std::string command_of(const SweepOptions& options) {
     std::error_code none;
     const std::string program = std::filesystem::read_symlink("/proc/self/exe", none).string();
-    std::vector<std::string> words{none ? "degs" : program, "sweep"};
-    const std::vector<std::string> study = words_of(options.study);
-    words.insert(words.end(), study.begin(), study.end());
-    return words;
+    return shell_word(none ? "degs" : program) + " " + options.stated + " " +
+           shell_word("--out=" + options.out) + " --jobs " + std::to_string(options.jobs);
 }
 
 /// Writes the script of an array over the parts that have points to run, and submits it.
@@ -73,8 +74,6 @@ void submit(const SweepOptions& options, const StudyPlan& plan) {
     SlurmArray array;
     array.name = file_name("degs-" + plan.name);
     array.command = command_of(options);
-    array.command.insert(array.command.end(),
-                         {"--out=" + options.out, "--jobs", std::to_string(options.jobs)});
     array.options = options.sbatch;
     array.processors = options.jobs;
     array.parts = std::min<std::size_t>(options.tasks, plan.points.size());
@@ -237,9 +236,7 @@ void add_sweep_command(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("sweep", "run every point of a study, or go on with it");
     add_study_options(*command, options->study);
-    command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
+    add_jobs_option(*command, options->jobs);
     add_out_option(*command, options->out, "folder for points, results and reports");
     command
         ->add_option("--shard", options->shard,
@@ -269,7 +266,10 @@ void add_sweep_command(CLI::App& program) {
         ->type_name("TEXT")
         ->take_all()
         ->expected(1);
-    command->callback([options] { run(*options); });
+    command->callback([options, command] {
+        options->stated = stated_command(*command);
+        run(*options);
+    });
 }
 
 } // namespace degs::sim

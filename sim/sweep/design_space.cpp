@@ -134,6 +134,12 @@ const KeyDoc& DesignSpace::key_of(const LoadedDesign& design, const std::string&
                      (near.empty() ? "; 'degs config FILE' lists its keys." : ""));
 }
 
+std::uint64_t bounded_product(std::uint64_t a, std::uint64_t b) {
+    std::uint64_t product = 0;
+    return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<std::uint64_t>::max()
+                                                  : product;
+}
+
 DesignSpace::DesignSpace(const Study& study, StudyPlan& plan) : study_(study), plan_(plan) {
     for (const StudyDesign& design : study.designs) {
         for (const LoadedDesign& other : designs_) {
@@ -211,17 +217,14 @@ std::vector<NamedConfig> DesignSpace::designs() const {
     return designs;
 }
 
-std::uint64_t DesignSpace::size() const {
-    if (!is_product()) {
-        return places().size();
-    }
+std::uint64_t DesignSpace::size_of(const Study& study) {
+    std::uint64_t sum = 1;
     std::uint64_t product = 1;
-    for (const Gene& gene : genes_) {
-        if (__builtin_mul_overflow(product, std::uint64_t{gene.positions}, &product)) {
-            return std::numeric_limits<std::uint64_t>::max();
-        }
+    for (const Axis& axis : study.axes) {
+        sum += axis.positions.size();
+        product = bounded_product(product, axis.positions.size());
     }
-    return product;
+    return bounded_product(study.designs.size(), study.one_at_a_time ? sum : product);
 }
 
 std::vector<Genes> DesignSpace::places() const {

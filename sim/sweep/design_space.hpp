@@ -23,10 +23,16 @@ struct Gene {
     bool ordered = false; ///< the positions are numbers, so neighbours are alike
 };
 
+/// The product of whole numbers, or the largest there is.
+std::uint64_t bounded_product(std::uint64_t a, std::uint64_t b);
+
 class DesignSpace {
 public:
     /// The position on an axis that leaves a design its own value.
     static constexpr std::size_t kOwn = -1;
+
+    /// How many places the space of a study is going to have, before anything is loaded.
+    static std::uint64_t size_of(const Study& study);
 
     /// Loads the designs, and puts the keys of the axes into the plan. Both outlive this object.
     /// Throws InputError for mistakes in designs, axes and overrides.
@@ -38,7 +44,7 @@ public:
     /// Whether every value of an axis is combined with every value of the others.
     bool is_product() const { return !study_.one_at_a_time; }
     /// How many places there are, or the largest number.
-    std::uint64_t size() const;
+    std::uint64_t size() const { return size_of(study_); }
     /// All places, one design after the other, the last axis fastest.
     std::vector<Genes> places() const;
 

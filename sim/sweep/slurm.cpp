@@ -75,11 +75,8 @@ std::string slurm_script(const SlurmArray& array) {
         }
         text += "#SBATCH " + option + "\n";
     }
-    text += "exec";
-    for (const std::string& word : array.command) {
-        text += " " + shell_word(word);
-    }
-    return text + " --shard \"$SLURM_ARRAY_TASK_ID/" + std::to_string(array.parts) + "\"\n";
+    return text + "exec " + array.command + " --shard \"$SLURM_ARRAY_TASK_ID/" +
+           std::to_string(array.parts) + "\"\n";
 }
 
 std::string submit_script(const std::string& file) {

@@ -10,7 +10,7 @@ namespace degs::sim {
 
 struct SlurmArray {
     std::string name;                 ///< of the job
-    std::vector<std::string> command; ///< `degs sweep ...`, to which each task adds its --shard
+    std::string command;              ///< "degs sweep ...", for a shell; each task adds its --shard
     std::vector<std::string> options; ///< of sbatch, one line each
     std::string logs;                 ///< folder
     std::size_t parts = 1;            ///< N of --shard K/N

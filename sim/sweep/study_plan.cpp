@@ -9,45 +9,48 @@
 
 #include "base/json_text.hpp"
 #include "config/config_document.hpp"
+#include "config/config_words.hpp"
 #include "degs/error.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/run_summary.hpp"
 #include "sim/shell/output_folder.hpp"
-#include "sim/sweep/study_variants.hpp"
+#include "sim/sweep/design_space.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
 namespace {
 
-/// The product of whole numbers, or the largest there is.
-std::uint64_t bounded_product(std::uint64_t a, std::uint64_t b) {
-    std::uint64_t product = 0;
-    return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<std::uint64_t>::max()
-                                                  : product;
-}
-
-/// How many variants the axes make of one design, before those that coincide are taken together.
-std::uint64_t combinations_of(const Study& study) {
-    std::uint64_t sum = 1;
-    std::uint64_t product = 1;
-    for (const Axis& axis : study.axes) {
-        sum += axis.positions.size();
-        product = bounded_product(product, axis.positions.size());
-    }
-    return study.one_at_a_time ? sum : product;
-}
-
 /// Nothing is listed before, because the points might not fit into memory.
 void check_size(const Study& study, std::uint64_t views) {
-    const std::uint64_t points =
-        bounded_product(bounded_product(study.designs.size(), combinations_of(study)), views);
+    const std::uint64_t points = bounded_product(DesignSpace::size_of(study), views);
     if (points > kMostPoints) {
         const bool endless = points == std::numeric_limits<std::uint64_t>::max();
         throw InputError("The study has " + std::string(endless ? "more than " : "") +
                          grouped(points) + " points; at most " + grouped(kMostPoints) +
                          " are allowed.");
     }
+}
+
+/// Expands the designs and axes of the study into the variants of the plan, with a configuration
+/// for each, those that cannot be built, and the baseline.
+void plan_variants(const Study& study, StudyPlan& plan) {
+    DesignSpace space(study, plan);
+    const bool coincide = // points that are the same count once
+        study.one_at_a_time || std::any_of(study.axes.begin(), study.axes.end(),
+                                           [](const Axis& axis) { return axis.random; });
+    for (const Genes& place : space.places()) {
+        const DesignSpace::Added added = space.add(place);
+        if (!added.is_new && !coincide) {
+            throw InputError("The study has the point " + config_words::quote(added.name) +
+                             " twice; a value of an axis is given twice.");
+        }
+    }
+    if (plan.variants.empty()) {
+        throw InputError("No point of the study can be built; the first one: " +
+                         plan.skipped.front().why);
+    }
+    space.add_baseline();
 }
 
 /// The views of the request in the outer, the variants in the inner loop.

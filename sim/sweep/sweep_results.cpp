@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sweep/sweep_results.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
+#include "base/number_json.hpp"
 #include "base/visible_text.hpp"
 #include "sim/page/page.hpp"
 #include "sim/report/report.hpp"
@@ -26,24 +26,6 @@ constexpr const char* kHostCsv = "host.csv";
 constexpr const char* kBandwidth = "bandwidth.svg";
 constexpr std::size_t kMostShown = 10; ///< reasons on a terminal; the files have all
 
-/// Measures of the machine that simulates would differ from run to run.
-bool is_reproducible(Measure measure) {
-    return name_of(measure).rfind("host.", 0) != 0;
-}
-
-/// Names of all stages, in the order in which runs first have them.
-std::vector<std::string> stage_names(const Comparison& comparison) {
-    std::vector<std::string> names;
-    for (const ComparisonRow& row : comparison.rows) {
-        for (const auto& [name, busy] : row.stages) {
-            if (std::find(names.begin(), names.end(), name) == names.end()) {
-                names.push_back(name);
-            }
-        }
-    }
-    return names;
-}
-
 /// Columns that only some studies have.
 struct MoreColumns {
     std::vector<std::string> stages, parts;
@@ -56,8 +38,8 @@ std::string csv_head(const StudyPlan& plan, const MoreColumns& more) {
     for (const std::string& key : plan.keys) {
         text += "," + csv_cell(key);
     }
-    text += ",accelerator,pes,tile_size,scene,camera,width,height,fidelity";
-    for_each_measure([&](Measure m) { text += is_reproducible(m) ? "," + name_of(m) : ""; });
+    text += run_headings();
+    for_each_measure([&](Measure m) { text += is_of_host(m) ? "" : "," + name_of(m); });
     text += ",limited_by";
     text += more.elasticity.empty() ? "" : ",bandwidth_elasticity";
     for (const std::string& stage : more.stages) {
@@ -70,27 +52,19 @@ std::string csv_head(const StudyPlan& plan, const MoreColumns& more) {
 std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::size_t r,
                     const MoreColumns& more) {
     const ComparisonRow& row = results.comparison.rows[r];
-    const ComparedConfig& config = results.comparison.configs[row.config];
-    const ComparedView& view = results.comparison.views[row.view];
     const StudyVariant& variant = plan.variants[row.config];
     std::string text = std::to_string(results.points[r] + 1) + "," + csv_cell(variant.design);
     for (const std::string& value : variant.values) {
         text += "," + csv_cell(value);
     }
-    text += "," + csv_cell(config.accelerator) + "," + std::to_string(config.pes.value_or(0)) +
-            "," + std::to_string(config.tile_size.value_or(0)) + "," + csv_cell(view.scene) + "," +
-            std::to_string(view.camera) + "," + std::to_string(view.width) + "," +
-            std::to_string(view.height) + "," + csv_cell(row.fidelity);
+    text += run_cells(results.comparison, row);
     for_each_measure(
-        [&](Measure m) { text += is_reproducible(m) ? "," + csv_number(row.measures[m]) : ""; });
+        [&](Measure m) { text += is_of_host(m) ? "" : "," + csv_number(row.measures[m]); });
     text += "," + csv_cell(row.limited_by);
     text += more.elasticity.empty() ? "" : "," + csv_number(more.elasticity[r]);
-    for (const std::string& stage : more.stages) {
-        const auto use = std::find_if(row.stages.begin(), row.stages.end(),
-                                      [&stage](const auto& each) { return each.first == stage; });
-        text += "," + (use == row.stages.end() ? "" : csv_number(use->second));
-    }
-    text += part_cells(row, more.parts) + (more.sampled ? sampling_cells(row) : "");
+    text += named_cells(row, &RunNumbers::stages, more.stages);
+    text += named_cells(row, &RunNumbers::parts, more.parts) +
+            (more.sampled ? sampling_cells(row) : "");
     if (!plan.aims.limits.empty()) {
         text += "," + csv_cell(within_words(results.verdicts[row.config]));
     }
@@ -99,8 +73,8 @@ std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::siz
 
 std::string results_csv(const StudyPlan& plan, const SweepResults& results) {
     const std::vector<ComparisonRow>& rows = results.comparison.rows;
-    const MoreColumns more{stage_names(results.comparison), part_names(rows), any_sampled(rows),
-                           elasticities(plan, results.comparison)};
+    const MoreColumns more{names_of(rows, &RunNumbers::stages), names_of(rows, &RunNumbers::parts),
+                           any_sampled(rows), elasticities(plan, results.comparison)};
     std::string text = csv_head(plan, more);
     for (std::size_t r = 0; r < results.comparison.rows.size(); ++r) {
         text += csv_row(plan, results, r, more);
@@ -110,13 +84,13 @@ std::string results_csv(const StudyPlan& plan, const SweepResults& results) {
 
 std::string host_csv(const SweepResults& results) {
     std::string text = "point";
-    for_each_measure([&](Measure m) { text += is_reproducible(m) ? "" : "," + name_of(m); });
+    for_each_measure([&](Measure m) { text += is_of_host(m) ? "," + name_of(m) : ""; });
     text += "\n";
     for (std::size_t r = 0; r < results.comparison.rows.size(); ++r) {
         text += std::to_string(results.points[r] + 1);
         for_each_measure([&](Measure m) {
             const auto& value = results.comparison.rows[r].measures[m];
-            text += is_reproducible(m) ? "" : "," + csv_number(value);
+            text += is_of_host(m) ? "," + csv_number(value) : "";
         });
         text += "\n";
     }
@@ -140,7 +114,7 @@ ordered_json run_json(const SweepResults& results, std::size_t r,
                          {"view", row.view},
                          {"fidelity", row.fidelity}};
     for_each_measure([&](Measure m) {
-        if (is_reproducible(m)) {
+        if (!is_of_host(m)) {
             put_measure(json, m, row.measures[m]);
         }
     });

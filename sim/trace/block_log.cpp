@@ -4,14 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.hpp"
-#include "sim/trace/trace_file.hpp"
+#include "scene/files/output_file.hpp"
 #include "sim/trace/trace_options.hpp"
 
 namespace degs::sim {
 
-void check_block_log(const BlockLogRequest& request) {
-    claim_output(request.file());
-}
+namespace {
 
 std::string block_log_text(const std::string& design, const std::string& block,
                            const EventLog& log) {
@@ -38,9 +36,15 @@ std::string block_log_text(const std::string& design, const std::string& block,
     return dump_json(header) + "\n" + log.bytes();
 }
 
+} // namespace
+
+void check_block_log(const BlockLogRequest& request) {
+    claim_output(request.file());
+}
+
 void write_block_log(const std::string& design, const BlockLogRequest& request,
                      const EventLog& log) {
-    write_text(request.file(), block_log_text(design, request.block(), log));
+    write_whole(request.file(), block_log_text(design, request.block(), log));
 }
 
 } // namespace degs::sim

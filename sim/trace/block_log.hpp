@@ -18,9 +18,7 @@ struct BlockLogRequest {
 
 /// For a request that is given: throws InputError if the file cannot be written, before a long run.
 void check_block_log(const BlockLogRequest& request);
-/// The file, in the form of docs/block-log.md.
-std::string block_log_text(const std::string& design, const std::string& block,
-                           const EventLog& log);
+/// In the form of docs/block-log.md.
 void write_block_log(const std::string& design, const BlockLogRequest& request,
                      const EventLog& log);
 

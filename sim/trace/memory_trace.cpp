@@ -4,10 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cinttypes>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
+#include <functional>
+#include <ostream>
+#include <queue>
 #include <stdexcept>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "degs/error.hpp"
 #include "scene/files/input_file.hpp"
@@ -20,12 +26,17 @@ namespace {
 
 constexpr std::uint64_t kLineBytes = 64;
 
+/// The two forms of docs/workload.md.
+enum class MemoryTraceForm {
+    LoadStore, ///< LoadStoreTrace of Ramulator 2: `LD 0x40` for a line of 64 B, without dates
+    Stl        ///< STL of DRAMSys: `12: (64) read 0x40`
+};
+
 bool ends_with(const std::string& text, const std::string& end) {
     return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-} // namespace
-
+/// By the end of the name: `.ldst` or `.stl`. InputError for any other.
 MemoryTraceForm memory_trace_form(const std::string& file) {
     if (ends_with(file, ".stl")) {
         return MemoryTraceForm::Stl;
@@ -36,6 +47,38 @@ MemoryTraceForm memory_trace_form(const std::string& file) {
     throw InputError("--memory-trace: the name '" + file +
                      "' must end in .stl, the form of DRAMSys, or in .ldst, that of Ramulator 2.");
 }
+
+/// Writes requests in the order of their dates, as the memory serves them: equal dates by the
+/// number of the initiator. A request is cut where a line of 64 B ends.
+class MemoryTrace : public RequestListener {
+public:
+    /// `out` must outlive the trace.
+    MemoryTrace(std::ostream& out, MemoryTraceForm form, const std::string& design,
+                double clock_ghz);
+
+    void initiator(const std::string& name) override { names_.push_back(name); }
+    void request(const MemoryRequest& request) override;
+    /// Writes what is left, when nothing follows.
+    void close();
+
+private:
+    struct Pending {
+        MemoryRequest request;
+        std::uint64_t sequence;
+        bool operator>(const Pending& other) const;
+    };
+    void write_before(Cycle date);
+    void write(const MemoryRequest& request);
+    void write_line(const MemoryRequest& request, std::uint64_t begin, std::uint64_t end);
+
+    std::ostream* out_;
+    MemoryTraceForm form_;
+    ClockDomain clock_;
+    std::vector<std::string> names_; // by initiator
+    std::priority_queue<Pending, std::vector<Pending>, std::greater<>> pending_;
+    std::uint64_t sequence_ = 0;
+    Cycle written_ = 0; // no request dated before may follow
+};
 
 bool MemoryTrace::Pending::operator>(const Pending& other) const {
     return std::tie(request.date, request.initiator, sequence) >
@@ -95,6 +138,8 @@ void MemoryTrace::write_line(const MemoryRequest& request, std::uint64_t begin, 
                   request.date, end - begin, request.write ? "write" : "read", begin);
     *out_ << line.data() << names_[request.initiator] << '\n';
 }
+
+} // namespace
 
 void check_memory_trace(const std::string& file) {
     memory_trace_form(file);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <map>
 
 #include <nlohmann/json.hpp>
@@ -298,12 +297,8 @@ std::string trace_text(const Trace& trace) {
            std::to_string(trace.timeline.end) + R"(},"traceEvents":[)" + events.take() + "\n]}\n";
 }
 
-void write_text(const std::string& path, const std::string& text) {
-    write_whole(path, [&](std::ostream& out) { out << text; });
-}
-
 void write_trace(const Trace& trace, const std::string& path) {
-    write_text(path, trace_text(trace));
+    write_whole(path, trace_text(trace));
 }
 
 } // namespace degs::sim

@@ -31,7 +31,5 @@ std::vector<TraceSpan> spans_of(const AcceleratorResult& run);
 std::string trace_text(const Trace& trace);
 /// Whole or not at all; throws InputError.
 void write_trace(const Trace& trace, const std::string& path);
-/// Writes a whole file. InputError if it cannot be written.
-void write_text(const std::string& path, const std::string& text);
 
 } // namespace degs::sim

@@ -50,9 +50,8 @@ void add_block_log_option(CLI::App& command, BlockLogRequest& request) {
 
 void claim_output(const std::string& file) {
     static std::list<OutputFolder> claimed; // until the program ends
-    const std::filesystem::path path(file);
-    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-    claimed.emplace_back(folder, std::vector<std::string>{path.filename().string()});
+    const std::string name = std::filesystem::path(file).filename().string();
+    claimed.emplace_back(parent_folder(file), std::vector<std::string>{name});
 }
 
 std::optional<Timeline::Config> timeline_of(const TraceRequest& request) {

@@ -63,13 +63,4 @@ void share_colours(const GaussianCloud& cloud, std::vector<FrameWorkload>& frame
     }
 }
 
-std::vector<const FrameWorkload*> first_views(const std::vector<const FrameWorkload*>& frames,
-                                              std::size_t views) {
-    std::vector<const FrameWorkload*> first;
-    for (std::size_t f = 0; f < frames.size(); f += views) {
-        first.push_back(frames[f]);
-    }
-    return first;
-}
-
 } // namespace degs::sim

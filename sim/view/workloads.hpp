@@ -28,8 +28,5 @@ std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const Scene
 /// their cameras.
 void share_colours(const GaussianCloud& cloud, std::vector<FrameWorkload>& frames,
                    std::size_t first, std::size_t count);
-/// The first view of every frame.
-std::vector<const FrameWorkload*> first_views(const std::vector<const FrameWorkload*>& frames,
-                                              std::size_t views);
 
 } // namespace degs::sim

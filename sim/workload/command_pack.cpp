@@ -3,7 +3,6 @@
 #include "sim/workload/command_pack.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <set>
 
@@ -71,12 +70,6 @@ std::vector<FrameToPack> frames_for(const std::vector<NamedConfig>& designs, con
     return frames;
 }
 
-void write_bytes(const std::string& path, const std::string& bytes) {
-    write_whole(path, [&](std::ostream& out) {
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    });
-}
-
 void run_pack(const PackOptions& options) {
     const std::vector<NamedConfig> designs =
         load_configs(options.configs, options.overrides, options.memory);
@@ -90,7 +83,7 @@ void run_pack(const PackOptions& options) {
         bytes = pack_workload(scene, frames);
     }
     refuse_output_in_use(options.out);
-    write_bytes(options.out, bytes);
+    write_whole(options.out, bytes);
     std::set<std::string> kinds;
     for (const FrameToPack& frame : frames) {
         if (!frame.designs.empty()) {

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 namespace degs {
 
 nlohmann::ordered_json number_json(double value) {
@@ -12,6 +10,10 @@ nlohmann::ordered_json number_json(double value) {
         return value > 0 ? "inf" : "-inf";
     }
     return std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value);
+}
+
+nlohmann::ordered_json value_or_null(const std::optional<double>& number) {
+    return number ? number_json(*number) : nlohmann::ordered_json();
 }
 
 } // namespace degs

@@ -17,5 +17,12 @@ TEST(NumberJson, EveryReaderTakesIt) {
     EXPECT_EQ(number_json(NAN).dump(), "null");
 }
 
+TEST(NumberJson, WhatDoesNotExistIsNull) {
+    EXPECT_EQ(value_or_null(std::optional<double>()).dump(), "null");
+    EXPECT_EQ(value_or_null(std::optional<double>(INFINITY)).dump(), "\"inf\"");
+    EXPECT_EQ(value_or_null(std::optional<int>()).dump(), "null");
+    EXPECT_EQ(value_or_null(std::optional<int>(3)).dump(), "3");
+}
+
 } // namespace
 } // namespace degs

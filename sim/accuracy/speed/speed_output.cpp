@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "base/median.hpp"
 #include "base/number_json.hpp"
 #include "sim/accuracy/speed/speed.hpp"
 #include "sim/text/text_table.hpp"
@@ -40,12 +41,7 @@ std::optional<double> median_of(const std::vector<const SpeedRow*>& rows, const 
             values.push_back(*value);
         }
     }
-    if (values.empty()) {
-        return {};
-    }
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+    return degs::median_of(std::move(values));
 }
 
 /// Cycles of the exact run of the same design in the same numbers; empty if there was none.
@@ -107,28 +103,24 @@ std::string held_words(const SpeedGroup& group) {
     return std::to_string(group.held) + " of " + std::to_string(group.sampled);
 }
 
-ordered_json number_or_null(std::optional<double> value) {
-    return value ? number_json(*value) : ordered_json(nullptr);
-}
-
 ordered_json row_json(const SpeedRow& row) {
     ordered_json json;
     json["accelerator"] = row.accelerator;
     json["fidelity"] = row.fidelity;
     json["numbers"] = row.numbers;
-    json["seed"] = row.seed ? ordered_json(*row.seed) : ordered_json(nullptr);
+    json["seed"] = value_or_null(row.seed);
     json["sim_s"] = row.sim_s;
     json["over_render"] = row.over_render;
     json["fragments_per_s"] = row.fragments_per_s;
     json["cycles"] = row.cycles;
     json["cycles_error"] = row.cycles_error;
     json["utilization_error"] = row.utilization_error;
-    json["dram_error"] = number_or_null(row.dram_error);
+    json["dram_error"] = value_or_null(row.dram_error);
     json["identical"] = row.identical;
-    json["psnr_db"] = number_or_null(row.psnr_db);
-    json["share"] = number_or_null(row.share);
-    json["interval_low"] = number_or_null(row.interval_low);
-    json["interval_high"] = number_or_null(row.interval_high);
+    json["psnr_db"] = value_or_null(row.psnr_db);
+    json["share"] = value_or_null(row.share);
+    json["interval_low"] = value_or_null(row.interval_low);
+    json["interval_high"] = value_or_null(row.interval_high);
     return json;
 }
 

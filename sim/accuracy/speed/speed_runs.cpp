@@ -50,11 +50,9 @@ SpeedOutcome outcome_of(const RunResult& result) {
     if (result.sampling) {
         const SamplingFacts& facts = *result.sampling;
         outcome.share = static_cast<double>(facts.measured) / static_cast<double>(facts.tiles);
-        for (const ReportInterval& interval : facts.intervals) {
-            if (interval.path == "timing.cycles") {
-                outcome.low = interval.low;
-                outcome.high = interval.high;
-            }
+        if (const ReportInterval* cycles = facts.interval_of("timing.cycles")) {
+            outcome.low = cycles->low;
+            outcome.high = cycles->high;
         }
     }
     return outcome;

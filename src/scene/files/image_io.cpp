@@ -2,6 +2,7 @@
 #include "scene/files/image_io.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <fstream>
 #include <stdexcept>
@@ -196,9 +197,13 @@ void write_png(const Image& image, const std::string& path) {
     });
 }
 
-std::uint32_t pixel_crc32(const Image& image) {
+std::string pixel_crc32(const Image& image) {
     const std::vector<png_byte> bytes = bytes_of(image);
-    return bytes.empty() ? 0 : static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
+    const auto sum =
+        bytes.empty() ? 0U : static_cast<unsigned>(crc32_z(0, bytes.data(), bytes.size()));
+    char digits[9] = {};
+    std::snprintf(digits, sizeof digits, "%08x", sum);
+    return digits;
 }
 
 } // namespace degs

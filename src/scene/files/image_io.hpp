@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -35,7 +34,7 @@ Image read_exr(const std::string& path);
 void write_png(const Image& image, const std::string& path);
 
 /// CRC-32 (that of zlib and PNG) of the bytes that write_png() stores: rows from the top, red,
-/// green, blue. 0 if the image has no pixels.
-std::uint32_t pixel_crc32(const Image& image);
+/// green, blue. Eight hexadecimal digits, all 0 if the image has no pixels.
+std::string pixel_crc32(const Image& image);
 
 } // namespace degs

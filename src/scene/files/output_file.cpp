@@ -131,6 +131,10 @@ void write_whole(const std::string& path, const std::function<void(std::ostream&
     });
 }
 
+void write_whole(const std::string& path, const std::string& bytes) {
+    write_whole(path, [&bytes](std::ostream& out) { out << bytes; });
+}
+
 std::string why_unwritten() {
     const int reason = errno;
     switch (reason) {

@@ -23,6 +23,8 @@ void write_atomically(const std::string& path,
 /// As write_atomically(), and `write` puts the bytes of the file into a stream. InputError with the
 /// reason if not all of them arrive.
 void write_whole(const std::string& path, const std::function<void(std::ostream&)>& write);
+/// As with a stream, for bytes that are there already.
+void write_whole(const std::string& path, const std::string& bytes);
 
 /// Why a file of write_atomically() has failed, by what the system said last: the end of a
 /// sentence.

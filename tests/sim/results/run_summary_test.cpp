@@ -32,6 +32,7 @@ RunResult some_result() {
     result.accelerator.memory_utilization = 1.0 / 3;
     result.error = ImageError{std::numeric_limits<double>::infinity(), 1, 0};
     result.workload.reference = ReferenceCounts{192, 0};
+    result.changes = FrameChanges{0.5, {}, 827, 0.25};
     return result;
 }
 
@@ -68,6 +69,11 @@ TEST(RunSummary, EveryFieldComesBack) {
     EXPECT_EQ(back.view.camera, 7);
     EXPECT_EQ(back.view.width, 640);
     EXPECT_EQ(back.view.fragments, 192U);
+    const FrameChanges changes = back.view.changes.value();
+    EXPECT_EQ(changes.active_overlap, 0.5);
+    EXPECT_FALSE(changes.tile_churn);
+    EXPECT_EQ(changes.p99_tile_candidates, 827);
+    EXPECT_EQ(changes.footprint_gini, 0.25);
     EXPECT_NEAR(back.first_task_ms.value_or(0), 10e-6, 1e-12);
     EXPECT_NEAR(back.last_task_ms.value_or(0), 14e-6, 1e-12);
     EXPECT_EQ(back.limited_by, "memory");

@@ -122,12 +122,12 @@ TEST(HostileQuoting, InPatternsOfSlurm) {
     }
     sim::SlurmArray array;
     array.name = "degs-x";
-    array.command = {"degs", "sweep", "it's 20%.yaml", "--out=a b%j"};
+    array.command = "degs sweep 20%.yaml '--out=a b%j'";
     array.logs = "a b%j/slurm";
     array.tasks = {1};
     const std::string script = sim::slurm_script(array);
     EXPECT_THAT(script, HasSubstr("\n#SBATCH --output='a b%%j/slurm/%a.log'\n"));
-    EXPECT_THAT(script, HasSubstr("exec degs sweep 'it'\\''s 20%.yaml' '--out=a b%j' --shard"));
+    EXPECT_THAT(script, HasSubstr("exec degs sweep 20%.yaml '--out=a b%j' --shard"));
 }
 
 TEST(HostileQuoting, AJobArrayInAFolderWithPercent) {
@@ -140,7 +140,8 @@ TEST(HostileQuoting, AJobArrayInAFolderWithPercent) {
     };
     const std::string file = wild_study(folder);
     const std::string out = folder / "r20%Aug";
-    const Outcome submitted = degs({"sweep", file, "--out", out, "--slurm"}, prepare);
+    const Outcome submitted =
+        degs({"sweep", file, "--out", out, "--slurm", "--camera", "0", "--quick=false"}, prepare);
     EXPECT_EQ(submitted.code, 0) << submitted.err;
     const std::string script = read_file(out + "/slurm.sh");
     EXPECT_THAT(script, HasSubstr("/r20%%Aug/slurm/%a.log\n"));
@@ -152,7 +153,8 @@ TEST(HostileQuoting, AJobArrayInAFolderWithPercent) {
                            sim::shell_word(said))
                               .c_str()),
               0);
-    EXPECT_THAT(read_file(said), HasSubstr("sweep\n" + file + "\n--out=" + out + "\n"));
+    EXPECT_THAT(read_file(said),
+                HasSubstr("sweep\n" + file + "\n--camera\n0\n--out=" + out + "\n"));
     const Outcome collected = degs({"sweep", file, "--out", out, "--collect"});
     EXPECT_EQ(collected.code, 2);
     EXPECT_THAT(collected.err, HasSubstr("2 points are missing; no task of the job array has "

@@ -6,40 +6,15 @@
 #include <set>
 #include <thread>
 
-#include "sim/goals/hypervolume.hpp"
 #include "sim/search/breeding.hpp"
 #include "sim/search/forecast.hpp"
+#include "sim/search/hypervolume.hpp"
 #include "tests/sim/sweep/search_spaces.hpp"
 
 namespace degs::sim_test {
 namespace {
 
 using namespace degs::sim;
-
-TEST(Hypervolume, IsWhatThePointsBeat) {
-    EXPECT_DOUBLE_EQ(hypervolume({}, {1, 1}), 0);
-    EXPECT_DOUBLE_EQ(hypervolume({{1, 3}, {2, 1}, {2, 2}}, {4, 4}), 3 + 6 - 2);
-    EXPECT_DOUBLE_EQ(hypervolume({{0, 0, 0}, {5, -9, 0}}, {1, 2, 3}), 6); // the second is too bad
-    // Two boxes of 2 x 2 x 1 that share 1 x 1 x 1, and one of 1 x 1 x 2 that shares 1 with both.
-    EXPECT_DOUBLE_EQ(hypervolume({{0, 1, 2}, {1, 0, 2}, {1, 1, 1}}, {2, 3, 3}), 4 + 3 - 2 + 4 - 2);
-    EXPECT_DOUBLE_EQ(hypervolume_gain({{1, 3}, {2, 2}}, {2, 1}, {4, 4}), 2);
-    EXPECT_DOUBLE_EQ(hypervolume_gain({{1, 1}}, {2, 1}, {4, 4}), 0);
-}
-
-TEST(Standings, AreFrontAndRoom) {
-    const std::vector<Standing> found = standings_of({{1, 8}, {2, 4}, {4, 2}, {8, 1}, {8, 8}});
-    EXPECT_EQ(found[0].front, 0U);
-    EXPECT_EQ(found[4].front, 1U);
-    EXPECT_TRUE(std::isinf(found[0].room));
-    EXPECT_NEAR(found[1].room, 2 * std::log(4), 1e-12); // from 1 to 4 and from 8 to 2
-}
-
-TEST(BestWithin, TakesWhatBreaksLimitsLast) {
-    using Positions = std::vector<std::size_t>;
-    const std::vector<Goals> goals{{1, 1}, {5, 5}, {2, 2}, {9, 9}};
-    EXPECT_EQ(best_within(goals, {0.2, 0, 0.1, 0}, 3), (Positions{1, 3, 2}));
-    EXPECT_EQ(best_within(goals, {0.2, 0, 0.1, 0}, 1), Positions{1});
-}
 
 /// A space of 8^10 places, whose front has the product 1 of two costs; a limit cuts it.
 Individual individual(const Genes& place) {
@@ -403,11 +378,6 @@ TEST(Evolution, RefusesWhatItCannotDo) {
     refuses({"--budget", "1"}, "--budget");
     refuses({"--fidelity", "analytic", "--budget", "9"}, "--budget counts simulations");
     refuses({"--limits", "area_mm2<=baseline(degs-65)"}, "degs-65");
-    for (const char* former : {"--search", "--rungs", "--share", "--least"}) {
-        refuses({former, "2"}, "'" + std::string(former) +
-                                   "' is gone with the search by halving: leave it out, and say "
-                                   "with --budget how many");
-    }
 }
 
 } // namespace

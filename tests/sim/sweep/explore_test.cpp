@@ -22,31 +22,6 @@ TEST(ParetoFront, HasWhomNobodyBeats) {
     EXPECT_EQ(pareto_front({Goals{7, 7}}), Positions{0});
 }
 
-TEST(ParetoFront, GoesOnWithTheFrontOfTheRest) {
-    const std::vector<Goals> goals{{1, 9}, {2, 5}, {3, 5.5}, {4, 1}, {2.5, 5.2}, {1, 10}};
-    EXPECT_EQ(best_of(goals, 3), (Positions{0, 1, 3}));
-    EXPECT_EQ(best_of(goals, 5), (Positions{0, 1, 3, 4, 5}));
-    EXPECT_EQ(best_of(goals, 99).size(), goals.size());
-}
-
-// Among 1, 2, 2.1, 8 the two in the middle are neighbours; the ends stay.
-TEST(ParetoFront, LosesItsClosestNeighboursFirst) {
-    const std::vector<Goals> goals{{1, 8}, {2, 4}, {2.1, 3.9}, {8, 1}};
-    const Positions three = best_of(goals, 3);
-    EXPECT_EQ(three.front(), 0U);
-    EXPECT_EQ(three.back(), 3U);
-    EXPECT_EQ(best_of(goals, 2), (Positions{0, 3}));
-}
-
-TEST(RankCorrelation, IsSpearmans) {
-    EXPECT_DOUBLE_EQ(*rank_correlation({1, 2, 30}, {5, 6, 7}), 1.0);
-    EXPECT_DOUBLE_EQ(*rank_correlation({1, 2, 3}, {3, 2, 1}), -1.0);
-    // Ranks 1 2 3 4 against 2 1 4 3: 1 - 6 * 4 / (4 * 15) = 0.6.
-    EXPECT_NEAR(*rank_correlation({1, 2, 3, 4}, {20, 10, 40, 30}), 0.6, 1e-12);
-    EXPECT_FALSE(rank_correlation({1, 2}, {1, 2}));
-    EXPECT_FALSE(rank_correlation({1, 1, 1}, {1, 2, 3}));
-}
-
 /// A study of 24 designs on two views.
 std::string space(const Folder& folder, const std::string& size = "width: 128\n") {
     const std::string file = folder / "space.yaml";

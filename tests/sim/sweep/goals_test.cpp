@@ -6,6 +6,7 @@
 #include "degs/error.hpp"
 #include "sim/goals/judgement.hpp"
 #include "tests/sim/process/child.hpp"
+#include "tests/sim/search/random_goals.hpp"
 
 namespace degs::sim_test {
 namespace {
@@ -192,17 +193,6 @@ bool is_beaten(const std::vector<Goals>& goals, std::size_t own) {
     return false;
 }
 
-std::vector<Goals> random_goals(std::mt19937& random, std::size_t designs, std::size_t count) {
-    std::uniform_int_distribution<int> number(1, 9); // so that many are equal
-    std::vector<Goals> goals(designs, Goals(count));
-    for (Goals& each : goals) {
-        for (double& goal : each) {
-            goal = number(random);
-        }
-    }
-    return goals;
-}
-
 TEST(ParetoFront, HasWhomNobodyBeatsInAnyNumberOfGoals) {
     std::mt19937 random(5);
     for (std::size_t round = 0; round < 200; ++round) {
@@ -220,76 +210,6 @@ TEST(ParetoFront, HasWhomNobodyBeatsInAnyNumberOfGoals) {
         }
         EXPECT_EQ(front, wanted);
     }
-}
-
-/// The best of two goals as searches of two goals have always found them.
-Positions best_of_two(const std::vector<Goals>& goals, std::size_t count) {
-    Positions rest(goals.size());
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-        rest[i] = i;
-    }
-    Positions best;
-    while (best.size() < count && !rest.empty()) {
-        std::sort(rest.begin(), rest.end(), [&](std::size_t a, std::size_t b) {
-            return std::make_pair(goals[a], a) < std::make_pair(goals[b], b);
-        });
-        Positions front;
-        Positions others;
-        for (const std::size_t position : rest) {
-            const bool better = front.empty() || goals[position][1] < goals[front.back()][1];
-            (better ? front : others).push_back(position);
-        }
-        rest = others;
-        while (front.size() > count - best.size()) {
-            const auto gap = [&](std::size_t place) {
-                const Goals& a = goals[front[place - 1]];
-                const Goals& b = goals[front[place + 1]];
-                return std::abs(std::log(b[0] / a[0])) + std::abs(std::log(a[1] / b[1]));
-            };
-            std::size_t closest = 0;
-            for (std::size_t place = 1; place + 1 < front.size(); ++place) {
-                closest = closest == 0 || gap(place) < gap(closest) ? place : closest;
-            }
-            front.erase(front.begin() + static_cast<std::ptrdiff_t>(closest));
-        }
-        best.insert(best.end(), front.begin(), front.end());
-    }
-    std::sort(best.begin(), best.end());
-    return best;
-}
-
-TEST(ParetoFront, PromotesInTwoGoalsAsEver) {
-    std::mt19937 random(6);
-    std::uniform_real_distribution<double> number(0.1, 10);
-    for (std::size_t round = 0; round < 300; ++round) {
-        auto goals = random_goals(random, 60, 2);
-        for (Goals& each : goals) {
-            if (round % 2 == 0) {
-                each = {number(random), number(random)};
-            }
-            each[1] = round % 3 == 0 ? -each[1] : each[1]; // a goal that shall be large
-        }
-        for (const std::size_t count : {1, 2, 3, 5, 8, 20, 59, 60}) {
-            EXPECT_EQ(best_of(goals, count), best_of_two(goals, count)) << round << " " << count;
-        }
-    }
-}
-
-// There is no ratio over 0 or between signs: such neighbours are far apart.
-TEST(ParetoFront, KeepsAnOrderWhereThereIsNoRatio) {
-    EXPECT_EQ(best_of({{-1, 9}, {1, 4}, {2, 3.9}, {2.1, 3.8}, {9, -2}}, 4),
-              (Positions{0, 1, 3, 4}));
-}
-
-// The best in each goal stay while there are places for them; then the closest drop out.
-TEST(ParetoFront, KeepsTheBestInEachGoal) {
-    const std::vector<Goals> goals{{1, 8, 8}, {8, 1, 8},     {8, 8, 1},
-                                   {4, 4, 4}, {4.1, 3.9, 4}, {3, 5, 4}};
-    EXPECT_EQ(best_of(goals, 3), (Positions{0, 1, 2}));
-    const Positions five = best_of(goals, 5);
-    EXPECT_EQ(five.size(), 5U);
-    EXPECT_EQ((Positions{five[0], five[1], five[2]}), (Positions{0, 1, 2}));
-    EXPECT_EQ(best_of({Goals{3}, Goals{1}, Goals{2}, Goals{1}}, 2), (Positions{1, 3}));
 }
 
 /// A study of 12 designs on two views.

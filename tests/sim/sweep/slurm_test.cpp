@@ -31,7 +31,7 @@ TEST(SlurmArrays, QuoteWhatAShellWouldChange) {
 TEST(SlurmArrays, EachTaskRunsItsPart) {
     SlurmArray array;
     array.name = "degs-x";
-    array.command = {"/bin/degs", "sweep", "my study.yaml"};
+    array.command = "/bin/degs sweep 'my study.yaml'";
     array.options = {"--partition=short --time=60"};
     array.logs = "o/slurm";
     array.parts = 9;

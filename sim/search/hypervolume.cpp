@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/goals/hypervolume.hpp"
+#include "sim/search/hypervolume.hpp"
 
 #include <algorithm>
 
 namespace degs::sim {
 namespace {
 
-constexpr double kRounding = 1e-12; ///< less than this share of a volume is none
+constexpr double kNegligible = 1e-12; ///< less than this share of a volume is none
 
 /// The volume of what one point beats.
 double box(const Goals& point, const Goals& worst) {
@@ -50,7 +50,7 @@ double hypervolume_gain(const std::vector<Goals>& points, const Goals& another,
         }
     }
     const double gain = all - hypervolume(shared, worst);
-    return gain > kRounding * all ? gain : 0;
+    return gain > kNegligible * all ? gain : 0;
 }
 
 } // namespace degs::sim
