@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Records of measured tables, in docs/tables.json: what each depended on, its text, and its probe.
 
-A table is stale when a value of a key, a scene, a study or the list of its points differs, when its text was changed by
-hand, or when its probe gives other numbers than it did. A probe is the cheapest of a table's points; where that takes
+A table is stale when it has no record, when a value of a key, a scene, a study or the list of its points differs, when
+its text was changed by hand, or when its probe gives other numbers than it did. A probe is the cheapest of a table's points; where that takes
 long, it is the same design with the same keys on a tiny view."""
 import concurrent.futures
 import hashlib
@@ -73,7 +73,7 @@ def differences(probe):
 
 
 def check(tables, jobs):
-    """(what is stale, what could not be tried, what has no record) of some tables: sentences."""
+    """(what is stale, what could not be tried) of some tables: sentences."""
     kept, stale, untried = read(), [], []
     entries = {name: kept["tables"][name] for name in tables if name in kept["tables"]}
     used = {entry["probe"] for entry in entries.values()}
@@ -94,4 +94,6 @@ def check(tables, jobs):
             if reasons:
                 stale.append(f"{entry['place']}: the table {name} is stale: {'; '.join(reasons[:3])}. "
                              f"Measure it anew: scripts/measure.py {name}")
-    return stale, untried, [name for name in tables if name not in entries]
+    stale += [f"{table.place}: the table {name} is stale: no record says what it was measured from. "
+              f"Measure it anew: scripts/measure.py {name}" for name, table in tables.items() if name not in entries]
+    return stale, untried
