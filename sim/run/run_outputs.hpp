@@ -14,8 +14,8 @@ namespace degs::sim {
 
 class RunOutputs {
 public:
-    /// Keeps the names of all files, those of so many images among them. Throws InputError if one
-    /// cannot be written.
+    /// Claims all files, with those of `images` images, before anything long starts. Throws
+    /// InputError if one cannot be written.
     RunOutputs(const RunFiles& files, int images);
     /// What the run must record for them.
     Recording recording();
@@ -37,8 +37,8 @@ private:
     EventLog log_;
 };
 
-/// Files that a run in this folder left, and which tell nothing of one of so many images without
-/// maps of tiles, or with the `maps` that follow.
+/// Files that an earlier run left in `out` and that a run of `images` images does not write:
+/// further images, and maps of tiles, those in the folder `maps` among them if there is one.
 std::vector<std::string> files_of_earlier_run(const OutputFolder& out,
                                               const std::optional<OutputFolder>& maps, int images);
 

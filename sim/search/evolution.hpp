@@ -23,7 +23,8 @@ namespace degs::sim {
 struct EvolutionOptions {
     std::size_t budget = 32; ///< designs that are simulated at most, with the baseline
     std::size_t population = 64;
-    std::size_t generations = 32; ///< with no more designs than these breed, a space is taken whole
+    std::size_t generations = 32; ///< a space of no more than population x generations designs
+                                  ///< is estimated whole
     std::uint64_t seed = 1;
 };
 
