@@ -136,10 +136,9 @@ class SmallRunReset : public ::testing::TestWithParam<Design> {};
 
 TEST_P(SmallRunReset, FramesAfterItAreThoseAfterPowerOn) {
     const auto& [kind, bus, fidelity] = GetParam();
-    const bool quick = fidelity == Fidelity::Exact;
     const sc_core::sc_time quantum(bus == Bus::Quantum ? 100 : 0, sc_core::SC_NS);
     tlm::tlm_global_quantum::instance().set(quantum);
-    const ResetBench bench(*accelerator_kinds()[kind].make(), bus, fidelity, quick ? 50 : 24);
+    const ResetBench bench(*accelerator_kinds()[kind].make(), bus, fidelity, 18);
     EXPECT_GT(bench.written, 0U);
     EXPECT_GT(bench.missing, bench.written / 10);
     // An access that is on the bus, up to a quantum ahead, takes 50 ns, and what is left of the
