@@ -79,6 +79,8 @@ void add_commands(CLI::App& program) {
     add_compare_command(program);
     add_sweep_command(program);
     add_explore_command(program);
+    add_bandwidth_command(program);
+    add_buffers_command(program);
     add_motion_command(program);
     add_render_command(program);
     add_scene_command(program);

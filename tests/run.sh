@@ -21,7 +21,7 @@ name= began= times=()
 step() {
     [[ ! $name ]] || times+=("$name $((SECONDS - began)) s")
     name=$1 began=$SECONDS
-    [[ ! $name ]] || echo "== $(date -u -d "@$SECONDS" +%M:%S) $name"
+    [[ ! $name ]] || echo "== $((SECONDS / 60)) min $((SECONDS % 60)) s: $name"
 }
 
 step "packages"
@@ -50,7 +50,7 @@ if [[ $all ]]; then
     ctest --preset asan -j "$tests" --no-tests=error
 fi
 step ""
-echo "== $(date -u -d "@$SECONDS" +%M:%S) done"
+echo "== $((SECONDS / 60)) min $((SECONDS % 60)) s: done"
 printf '%s\n' "${times[@]}"
 if [[ ! $all ]]; then
     left=$(ctest --test-dir build/release -N -L '^all$' | sed -n 's/^Total Tests: //p')

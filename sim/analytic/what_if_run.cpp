@@ -5,8 +5,7 @@
 
 #include "config/config_source.hpp"
 #include "sim/analytic/analytic_run.hpp"
-#include "sim/design/run_config.hpp"
-#include "sim/simulation/what_if.hpp"
+#include "sim/report/losses.hpp"
 #include "sim/text/comma_parts.hpp"
 #include "sim/view/frame_kind.hpp"
 
@@ -52,6 +51,14 @@ std::vector<WhatIf> what_if(const RunConfig& config, const std::vector<ChangedDe
                         estimated_cycles(design.config, kind == own ? frame : others.at(kind))});
     }
     return list;
+}
+
+std::vector<WhatIf> gains(const RunResult& result, const FrameWorkload& frame, CachedView& view) {
+    if (result.accelerator.array_only || result.config.accelerator().analytic() == nullptr) {
+        return {};
+    }
+    return what_if(result.config, changed_designs(result.config, named_changes(result)), frame,
+                   view);
 }
 
 } // namespace degs::sim

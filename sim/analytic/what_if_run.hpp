@@ -7,7 +7,7 @@
 
 #include "sim/cache/cached_view.hpp"
 #include "sim/design/run_config.hpp"
-#include "sim/simulation/what_if.hpp"
+#include "sim/simulation/run_result.hpp"
 
 namespace degs::sim {
 
@@ -26,5 +26,9 @@ std::vector<ChangedDesign> changed_designs(const RunConfig& config,
 /// changes that leave tiles and projection as they are.
 std::vector<WhatIf> what_if(const RunConfig& config, const std::vector<ChangedDesign>& changed,
                             const FrameWorkload& frame, CachedView& view);
+
+/// What the changes that the largest losses of a run name would gain on the view; empty if the
+/// accelerator has no analytic model, or if the run was of its array alone.
+std::vector<WhatIf> gains(const RunResult& result, const FrameWorkload& frame, CachedView& view);
 
 } // namespace degs::sim

@@ -149,13 +149,20 @@ private:
     LossKeys keys_;
 };
 
-/// "raise a, raise b or c=d"
-std::string choice_of(const std::vector<std::string>& keys) {
-    std::string words;
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        words += (i == 0 ? "" : i + 1 == keys.size() ? " or " : ", ") + keys[i];
+constexpr std::size_t kNamed = 3; // losses of which a person reads
+
+/// The change that gains most, or "raise a, raise b or c=d" where none was estimated.
+std::string advice_of(const Loss& loss, const RunResult& result) {
+    if (const WhatIf* const best = best_gain(loss, result)) {
+        constexpr double kShown = 0.0005; // less is 0.0 %
+        const double gain = -best->share();
+        return best->change + (gain < kShown ? " gains nothing" : " gains " + percent(gain) + " %");
     }
-    return words;
+    std::string words;
+    for (std::size_t i = 0; i < loss.keys.size(); ++i) {
+        words += (i == 0 ? "" : i + 1 == loss.keys.size() ? " or " : ", ") + loss.keys[i].words;
+    }
+    return words.empty() ? "no key is known to move it" : words;
 }
 
 } // namespace
@@ -164,14 +171,39 @@ std::vector<Loss> losses_of(const RunResult& result) {
     return Losses(result).all();
 }
 
+std::vector<std::string> named_changes(const RunResult& result) {
+    std::vector<Loss> losses = losses_of(result);
+    losses.resize(std::min(losses.size(), kNamed));
+    std::vector<std::string> changes;
+    for (const Loss& loss : losses) {
+        for (const LossStep& key : loss.keys) {
+            if (std::find(changes.begin(), changes.end(), key.change) == changes.end()) {
+                changes.push_back(key.change);
+            }
+        }
+    }
+    return changes;
+}
+
+const WhatIf* best_gain(const Loss& loss, const RunResult& result) {
+    const WhatIf* best = nullptr;
+    for (const LossStep& key : loss.keys) {
+        for (const WhatIf& gain : result.gains) {
+            if (gain.change == key.change && (best == nullptr || gain.share() < best->share())) {
+                best = &gain;
+            }
+        }
+    }
+    return best;
+}
+
 std::string losses_line(const RunResult& result) {
     std::vector<Loss> losses = losses_of(result);
-    losses.resize(std::min<std::size_t>(losses.size(), 3));
+    losses.resize(std::min(losses.size(), kNamed));
     std::string line;
     for (const Loss& loss : losses) {
         line += (line.empty() ? "" : " · ") + loss.reason + " " + percent(loss.share) +
-                (line.empty() ? " % of the frame" : " %") + " (" +
-                (loss.keys.empty() ? "no key is known to move it" : choice_of(loss.keys)) + ")";
+                (line.empty() ? " % of the frame" : " %") + " (" + advice_of(loss, result) + ")";
     }
     return line.empty() ? "none" : line;
 }

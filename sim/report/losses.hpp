@@ -11,14 +11,17 @@ namespace degs::sim {
 
 struct Loss {
     std::string reason;
-    double share = 0; ///< of PEs x cycles of the run
-    std::vector<std::string>
-        keys; ///< "raise span.count"; only keys that can move it in this design
+    double share = 0;           ///< of PEs x cycles of the run
+    std::vector<LossStep> keys; ///< only those that can move it in this design
 };
 
 /// All of them, the largest first; with `useful / (PEs x cycles)` they add up to 1. Empty without
 /// any cycles.
 std::vector<Loss> losses_of(const RunResult& result);
+/// The changes that the three largest name, each once.
+std::vector<std::string> named_changes(const RunResult& result);
+/// Of the changes that a loss names, the one that gains most; null if none was estimated.
+const WhatIf* best_gain(const Loss& loss, const RunResult& result);
 /// The three largest as one line.
 std::string losses_line(const RunResult& result);
 

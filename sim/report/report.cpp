@@ -14,6 +14,7 @@
 #include "sim/report/losses.hpp"
 #include "sim/report/view_words.hpp"
 #include "sim/report/what_if_words.hpp"
+#include "sim/sampling/regression.hpp"
 #include "stats/statistics_document.hpp"
 
 namespace degs::sim {
@@ -172,11 +173,12 @@ ordered_json sampling_json(const SamplingFacts& sampling) {
     json["share"] = request.share > 0 ? ordered_json(request.share) : ordered_json(nullptr);
     json["seed"] = request.seed;
     json["reached"] = sampling.reached;
-    json["confidence"] = 0.95;
+    json["confidence"] = kConfidence;
     json["tiles"] = sampling.tiles;
     json["tiles_measured"] = sampling.measured;
     json["tiles_simulated"] = sampling.simulated;
     json["groups"] = sampling.groups;
+    json["looks"] = sampling.looks;
     json["intervals"] = intervals_json(sampling.intervals);
     return json;
 }
@@ -192,7 +194,16 @@ ordered_json laws_json(const AcceleratorResult& run) {
 ordered_json losses_json(const RunResult& result) {
     ordered_json json = ordered_json::array();
     for (const Loss& loss : losses_of(result)) {
-        json.push_back({{"reason", loss.reason}, {"share", loss.share}, {"keys", loss.keys}});
+        ordered_json keys = ordered_json::array();
+        for (const LossStep& key : loss.keys) {
+            keys.push_back(key.words);
+        }
+        const WhatIf* const best = best_gain(loss, result);
+        json.push_back({{"reason", loss.reason},
+                        {"share", loss.share},
+                        {"keys", keys},
+                        {"change", best == nullptr ? ordered_json() : ordered_json(best->change)},
+                        {"gain", best == nullptr ? ordered_json() : ordered_json(-best->share())}});
     }
     return json;
 }

@@ -25,10 +25,6 @@ namespace {
 
 constexpr const char* kDot = " · ";
 
-std::string count_words(std::uint64_t count, const char* one, const char* many) {
-    return grouped(count) + " " + (count == 1 ? one : many);
-}
-
 /// Enough digits to show its distance from 1: 0.99999873 -> "0.9999987".
 std::string similarity(double ssim) {
     if (std::isnan(ssim)) {

@@ -25,6 +25,7 @@ RunResult simulate(const RunPlan& plan, CachedView& view, const Stopwatch& since
     RunResult result = run_frames(request, view.frames(design, first));
     put_scene(view.facts(), result);
     result.what_if = std::move(worth);
+    result.gains = gains(result, first.front(), view);
     if (view.foveated()) {
         put_foveation(*view.foveated(), result);
     }

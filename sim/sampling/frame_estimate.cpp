@@ -10,14 +10,11 @@
 #include "base/ratio.hpp"
 #include "modules/kit/accelerator/accelerator_energy.hpp"
 #include "sim/sampling/amounts.hpp"
+#include "sim/sampling/stopping_rule.hpp"
 #include "stats/statistics_document.hpp"
 
 namespace degs::sim {
 namespace {
-
-/// A tile that follows another than its neighbour finds the pipeline in another state. Measured:
-/// docs/sampling.md.
-constexpr double kPipelineError = 0.003;
 
 std::vector<double> difference(const AcceleratorResult& after, const AcceleratorResult& earlier) {
     std::vector<double> amounts = amounts_of(after);
@@ -101,9 +98,10 @@ std::map<std::string, double> numbers_of(const AcceleratorResult& run) {
 } // namespace
 
 FrameEstimate::FrameEstimate(const AcceleratorConfig& config, const FrameWorkload& frame,
-                             const std::vector<TileWork>& blocks)
+                             const std::vector<TileWork>& blocks, double confidence)
     : config_(config), pixels_(std::uint64_t{1} * frame.camera.width * frame.camera.height),
-      blocks_(blocks.size()), regression_(blocks), totals_({}), rest_(sum_of(blocks)) {}
+      blocks_(blocks.size()), confidence_(confidence), regression_(blocks), totals_({}),
+      rest_(sum_of(blocks)) {}
 
 void FrameEstimate::begin(const AcceleratorResult& head) {
     totals_ = GroupTotals(amounts_of(head));
@@ -225,12 +223,12 @@ double FrameEstimate::jackknife(const std::vector<double>& without) const {
     for (const double value : without) {
         squares += (value - mean) * (value - mean);
     }
-    return student_t(without.size() - 1) *
+    return student_t(without.size() - 1, confidence_) *
            std::sqrt((1 - known_share()) * (groups - 1) / groups * squares);
 }
 
 Estimate FrameEstimate::own_total(std::size_t measure) const {
-    Estimate total = regression_.total(measure);
+    Estimate total = regression_.total(measure, confidence_);
     const double pipeline = kPipelineError * total.value;
     total.half_width = std::hypot(total.half_width, known_share() < 1 ? pipeline : 0.0);
     return total;

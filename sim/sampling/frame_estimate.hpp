@@ -32,9 +32,10 @@ struct WindowPart {
 /// at a time.
 class FrameEstimate {
 public:
-    /// `blocks`: the work of the blocks that the sample is drawn from.
+    /// `blocks`: the work of the blocks that the sample is drawn from; `confidence`: of its
+    /// intervals, 0 .. 1.
     FrameEstimate(const AcceleratorConfig& config, const FrameWorkload& frame,
-                  const std::vector<TileWork>& blocks);
+                  const std::vector<TileWork>& blocks, double confidence = kConfidence);
 
     /// After preprocessing and the first tiles of the frame.
     void begin(const AcceleratorResult& head);
@@ -47,7 +48,7 @@ public:
     void end(const AcceleratorResult& earlier, const AcceleratorResult& after,
              const WindowPart& edges, const TileWork& warm_up);
 
-    /// Half of the 95 % interval over the value, as far as the sample has come.
+    /// Half of the interval over the value, as far as the sample has come.
     double relative_half_width(const std::string& path) const;
     /// The share of the memory's peak that the frame uses, as far as the sample has come; 0 if the
     /// memory is unlimited.
@@ -75,6 +76,7 @@ private:
     const AcceleratorConfig& config_;
     std::uint64_t pixels_ = 0;
     std::size_t blocks_ = 0;
+    double confidence_;
     RegressionEstimator regression_;
     GroupTotals totals_;
     TileWork rest_ = kNoWork;

@@ -11,13 +11,15 @@
 
 namespace degs::sim {
 
-/// The 97.5 % quantile of Student's t distribution: half the width of a 95 % interval in standard
-/// errors. 1.96 for infinitely many degrees of freedom; infinite for none.
-double student_t(std::size_t degrees_of_freedom);
+constexpr double kConfidence = 0.95; ///< of what a sampled run says
+
+/// Half the width of an interval of this confidence (0 .. 1) in standard errors, by Student's t
+/// distribution: 1.96 for 0.95 and infinitely many degrees of freedom; infinite for none.
+double student_t(std::size_t degrees_of_freedom, double confidence = kConfidence);
 
 struct Estimate {
     double value = 0;
-    double half_width = 0; ///< of the 95 % interval
+    double half_width = 0; ///< of the interval
     double low() const { return value - half_width; }
     double high() const { return value + half_width; }
 };
@@ -34,8 +36,9 @@ public:
     void add(std::size_t block, std::size_t group, std::vector<double> measured);
     std::size_t blocks() const { return sample_.size(); }
 
-    /// The total of the population. Its interval is infinitely wide for fewer blocks than it takes.
-    Estimate total(std::size_t measure) const;
+    /// The total of the population, with an interval of this confidence (0 .. 1), which is
+    /// infinitely wide for fewer blocks than it takes.
+    Estimate total(std::size_t measure, double confidence = kConfidence) const;
     /// The total of the population, estimated without the blocks of one group of the sample.
     double total_without(std::size_t measure, std::size_t group) const;
 

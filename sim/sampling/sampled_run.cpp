@@ -10,6 +10,7 @@
 
 #include "base/ratio.hpp"
 #include "degs/error.hpp"
+#include "modules/kit/analytic/analytic_frame.hpp"
 #include "modules/kit/analytic/expected_work.hpp"
 #include "sim/accelerator/accelerator_run.hpp"
 #include "sim/process/stopwatch.hpp"
@@ -269,33 +270,73 @@ std::string too_few(std::size_t tiles, std::size_t needed) {
            grouped(needed) + "; all tiles are simulated, and the results are exact.";
 }
 
-std::string too_wide(const SamplingRequest& request, double reached, std::size_t measured,
-                     std::size_t tiles) {
-    return "After " + grouped(measured) + " of " + grouped(tiles) + " tiles the 95 % interval of " +
-           request.measure + " is ±" + three_digits(100 * reached) + " % wide, and ±" +
-           three_digits(100 * request.within) + " % is not to be had from less than " +
-           percent(kMostShare, 0) +
-           " % of them; all tiles are simulated, and the results are exact.";
+std::string too_narrow() {
+    return "Tiles out of their order change a frame by ±" + percent(kPipelineError) +
+           " %, so that no sample is as narrow as was asked for; all tiles are simulated, and the "
+           "results are exact.";
 }
 
 std::string contended(double use) {
-    return "The frame uses " + percent(use, 0) + " % of the memory's peak, and above " +
+    return "The frame uses about " + percent(use, 0) + " % of the memory's peak, and above " +
            percent(kMostMemoryUse, 0) +
            " % of it tiles wait for requests of others that a sample leaves out; all tiles are "
            "simulated, and the results are exact.";
 }
 
-Verdict verdict_on(const Sampler& sampler, const FrameEstimate& estimate, SamplingFacts& facts) {
-    if (sampler.groups() < kLeastGroups && sampler.more()) {
+std::string too_wide(const SamplingFacts& facts) {
+    return "The 95 % interval of " + facts.request.measure + " is ±" +
+           three_digits(100 * facts.reached) + " % wide instead of ±" +
+           three_digits(100 * facts.request.within) + " % with " + grouped(facts.measured) +
+           " of " + grouped(facts.tiles) +
+           " tiles, beyond which an exact run takes no longer (--fidelity exact).";
+}
+
+/// The share of the memory's peak that a frame uses while its tiles are rendered, by the model of
+/// the design; 0 without one.
+double expected_memory_use(const AnalyticModel* model, const FrameWorkload& frame,
+                           const AcceleratorConfig& config) {
+    if (model == nullptr) {
+        return 0;
+    }
+    const AnalyticFrame expected = estimate_frame(*model, frame, config.tile_order);
+    const double seconds = expected.cycles / config.clock_ghz * 1e-9;
+    return seconds > 0 ? expected.bytes / seconds * 1e-9 / model->main_memory().peak_gb_per_s() : 0;
+}
+
+/// Why no sample of a frame with so many tiles that list a splat would do; empty if one may.
+std::string refusal_of(const SamplingRequest& request, const AcceleratorConfig& config,
+                       const AnalyticModel* model, const FrameWorkload& frame,
+                       const BuildOptions& options, std::size_t tiles) {
+    const std::string coupling = coupled(config.tile_coupling(options.array_only));
+    if (!coupling.empty()) {
+        return coupling;
+    }
+    if (!can_sample(request, config.tile_contexts(), tiles)) {
+        return too_few(tiles, least_tiles(request, config.tile_contexts()));
+    }
+    if (request.share == 0 && request.within <= kPipelineError) {
+        return too_narrow();
+    }
+    const double use = options.array_only ? 0 : expected_memory_use(model, frame, config);
+    return use > kMostMemoryUse ? contended(use) : "";
+}
+
+/// Looks at the sample if it is time to; `looks` counts.
+Verdict verdict_on(const Sampler& sampler, const FrameEstimate& estimate, SamplingFacts& facts,
+                   std::size_t& looks) {
+    facts.measured = sampler.measured();
+    const double share = ratio_of(facts.measured, facts.tiles);
+    if (facts.request.share > 0) {
+        return sampler.groups() < kLeastGroups && sampler.more()
+                   ? Verdict::More
+                   : judge_sample(facts.request, share, 0, sampler.more());
+    }
+    if (sampler.groups() < groups_at_look(looks) && sampler.more() && share < kMostShare) {
         return Verdict::More;
     }
-    facts.measured = sampler.measured();
-    if (estimate.memory_use() > kMostMemoryUse) {
-        return Verdict::Contended;
-    }
+    ++looks;
     facts.reached = estimate.relative_half_width(facts.request.measure);
-    return judge_sample(facts.request, ratio_of(facts.measured, facts.tiles), facts.reached,
-                        sampler.more());
+    return judge_sample(facts.request, share, facts.reached, sampler.more());
 }
 
 } // namespace
@@ -314,23 +355,20 @@ SampledResult run_sampled(const AcceleratorConfig& config, const FrameWorkload& 
     SampledResult sampled;
     SamplingFacts& facts = sampled.facts;
     facts.request = request;
-    facts.refusal = coupled(config.tile_coupling(options.array_only));
+    facts.tiles = listed_tiles(frame);
+    const int contexts = config.tile_contexts();
+    const std::unique_ptr<AnalyticModel> model = config.analytic();
+    facts.refusal = refusal_of(request, config, model.get(), frame, options, facts.tiles);
     if (!facts.refusal.empty()) {
         return sampled;
     }
-    facts.tiles = listed_tiles(frame);
-    const int contexts = config.tile_contexts();
-    if (!can_sample(request, contexts, facts.tiles)) {
-        facts.refusal = too_few(facts.tiles, least_tiles(request, contexts));
-        return sampled;
-    }
-    const std::unique_ptr<AnalyticModel> model = config.analytic();
     const std::vector<TileWork> work = expected_work(frame, model.get(), config.tile_order);
     SampleDesign design = design_sample(work, sizes_for(contexts, work.size()), request.seed);
     std::uint64_t activations = 0;
     const Timebase time{ClockDomain(config.clock_ghz), fidelity, nullptr, &activations};
     OpenRun run(config, frame, time, options);
-    FrameEstimate estimate(config, frame, work_of_blocks(work, design));
+    FrameEstimate estimate(config, frame, work_of_blocks(work, design),
+                           request.share > 0 ? kConfidence : kLookConfidence);
     Sampler sampler(run, work, std::move(design), estimate, options.array_only,
                     model != nullptr && model->engines() == 1);
     const double elaborate_s = elaborate.seconds();
@@ -338,32 +376,28 @@ SampledResult run_sampled(const AcceleratorConfig& config, const FrameWorkload& 
     const auto sim_start = std::chrono::steady_clock::now();
     const SimulationClock clock;
     sampler.begin();
-    Verdict verdict = Verdict::More;
-    double waited_s = 0;
-    while (verdict == Verdict::More) {
+    std::size_t looks = 0;
+    for (Verdict verdict = Verdict::More; verdict == Verdict::More;) {
         sampler.simulate_group();
         progress.done(std::min(1.0, ratio_of(sampler.measured(), work.size()) / kMostShare));
-        verdict = verdict_on(sampler, estimate, facts);
+        verdict = verdict_on(sampler, estimate, facts, looks);
     }
-    if (verdict == Verdict::Hopeless) {
-        facts.refusal = too_wide(request, facts.reached, facts.measured, facts.tiles);
-    } else if (verdict == Verdict::Contended) {
-        facts.refusal = contended(estimate.memory_use());
-    } else {
-        const AcceleratorResult raw = sampler.end();
-        check_result(raw);
-        waited_s = raw.waited_s;
-        sampled.result = estimate.whole_frame(facts.tiles);
-        facts.reached = estimate.relative_half_width(request.measure);
-        facts.intervals = estimate.intervals();
-        sampled.result.images = run.images();
-    }
+    const AcceleratorResult raw = sampler.end();
+    check_result(raw);
+    sampled.result = estimate.whole_frame(facts.tiles);
+    facts.reached = estimate.relative_half_width(request.measure);
+    facts.intervals = estimate.intervals();
+    sampled.result.images = run.images();
     facts.measured = sampler.measured();
     facts.simulated = run.simulated();
     facts.groups = sampler.groups();
+    facts.looks = looks;
+    if (request.share == 0 && facts.reached > request.within) {
+        facts.warning = too_wide(facts);
+    }
     sampled.result.elaborate_s = elaborate_s;
     clock.stop(sampled.result);
-    sampled.result.sim_s += waited_s;
+    sampled.result.sim_s += raw.waited_s;
     sampled.result.activations = activations;
     sampled.result.sim_start = sim_start;
     return sampled;

@@ -26,11 +26,12 @@ struct SamplingFacts {
     std::size_t measured = 0;  ///< of them in the sample
     std::size_t simulated = 0; ///< with those that warm up the pipeline, which may come twice
     std::size_t groups = 0;
-    double reached = 0; ///< half of the interval of request.measure over its value
+    std::size_t looks = 0; ///< at the interval; 0 if a share was asked for
+    double reached = 0;    ///< half of the interval of request.measure over its value
     std::vector<ReportInterval> intervals;
     const ReportInterval* interval_of(const std::string& path) const; ///< null: there is none
-    /// What keeps a sample from holding the promise; empty if nothing does.
-    std::string refusal;
+    std::string refusal; ///< why there is no sample: a sentence, or empty
+    std::string warning; ///< that the interval is wider than was asked for: a sentence, or empty
 };
 
 struct SampledResult {
@@ -39,7 +40,8 @@ struct SampledResult {
     SamplingFacts facts;
 };
 
-/// May be called once per process. A refusal leaves a result that must not be used.
+/// May be called once per process. A refusal comes before anything is simulated, and leaves a
+/// result that must not be used.
 SampledResult run_sampled(const AcceleratorConfig& config, const FrameWorkload& frame,
                           Fidelity fidelity, const BuildOptions& options,
                           const SamplingRequest& request, Progress& progress);

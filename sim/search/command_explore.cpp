@@ -4,6 +4,7 @@
 
 #include "base/visible_text.hpp"
 #include "degs/error.hpp"
+#include "sim/search/evolution.hpp"
 #include "sim/search/search.hpp"
 #include "sim/search/search_output.hpp"
 #include "sim/shell/commands.hpp"
@@ -41,15 +42,16 @@ void run_search(const ExploreOptions& options, const StudyPlan& plan, Evolution&
     std::optional<Failure> failure;
     SearchPart part = options.shard ? SearchPart(parse_shard(*options.shard), 60 * options.patience)
                                     : SearchPart();
-    const std::optional<Search> found = search(plan, evolution, part, options.out, failure);
-    if (found && !part.writes()) {
+    const bool complete = search(plan, evolution, part, options.out, failure);
+    if (complete && !part.writes()) {
         print(part.name() + " has ended; part 1 writes the results\n");
-    } else if (found) {
+    } else if (complete) {
+        const Search found = evolution.found();
         const OutputFolder folder(options.out, search_files());
-        write_search(plan, *found, folder);
-        print(search_text(plan, *found) +
+        write_search(plan, found, folder);
+        print(search_text(plan, found) +
               "\nall numbers, plots and the page: " + visible(folder.path("")) + "\n");
-        print_warnings(found->results.warnings);
+        print_warnings(found.results.warnings);
     }
     if (failure) {
         throw FailureError(*failure);

@@ -14,10 +14,12 @@
 namespace degs::sim {
 namespace {
 
-constexpr std::size_t kLeastOfRound = 2; ///< designs
-constexpr std::size_t kMostRounds = 8;   ///< of about the same size
-constexpr std::size_t kShareUnlike = 2;  ///< of the budget, for a first round without estimates
-constexpr std::size_t kTries = 50;       ///< proposals for each place of a generation
+constexpr std::size_t kLeastOfRound = 2;  ///< designs
+constexpr std::size_t kMostRounds = 8;    ///< of about the same size
+constexpr std::size_t kShareUnlike = 2;   ///< of the budget, for a first round without estimates
+constexpr std::size_t kTries = 50;        ///< proposals for each place of a generation
+constexpr std::size_t kForNeighbours = 4; ///< one design in so many of the budget, at least
+constexpr std::size_t kMostWords = 8;     ///< more on an axis are samples, which have no neighbours
 constexpr const char* kEstimates = "estimates";
 
 bool has_estimate(const Aim& aim) {
@@ -41,6 +43,25 @@ std::string lack_of_estimates(const DesignSpace& space, const StudyPlan& plan) {
         }
     }
     return "";
+}
+
+/// The next number either way, or another word, in one place of the genes.
+std::vector<Genes> places_beside(const std::vector<Gene>& genes, const Genes& place) {
+    std::vector<Genes> places;
+    for (std::size_t g = 0; g < genes.size(); ++g) {
+        if (place[g] == DesignSpace::kOwn ||
+            (!genes[g].ordered && genes[g].positions > kMostWords)) {
+            continue;
+        }
+        for (std::size_t p = 0; p < genes[g].positions; ++p) {
+            const std::size_t apart = p > place[g] ? p - place[g] : place[g] - p;
+            if (apart == 1 || (apart > 1 && !genes[g].ordered)) {
+                places.push_back(place);
+                places.back()[g] = p;
+            }
+        }
+    }
+    return places;
 }
 
 /// What is known of a design that nobody has estimated: what does not depend on a frame.
@@ -266,22 +287,77 @@ std::vector<std::size_t> Evolution::unlike(const RoundFacts& facts, std::size_t 
     return variants;
 }
 
-std::vector<std::size_t> Evolution::choose(const RoundFacts& facts) const {
+std::vector<std::size_t> Evolution::choose(const RoundFacts& facts) {
     if (round_ == 1 && !estimates_) {
         return unlike(facts, all_ ? facts.prospects.size() : options_.budget / kShareUnlike);
     }
     const std::size_t size =
         std::max(kLeastOfRound, (options_.budget + kMostRounds - 1) / kMostRounds);
     const std::size_t count = std::min(size, options_.budget - tried_.size());
-    return choose_round(facts, count);
+    const std::size_t kept_back = space_.is_product() ? options_.budget / kForNeighbours : 0;
+    std::vector<std::size_t> chosen;
+    if (tried_.size() + kept_back < options_.budget) {
+        chosen = choose_round(facts, std::min(count, options_.budget - kept_back - tried_.size()));
+    }
+    return chosen.empty() && round_ > 1 ? choose_neighbours(count) : chosen;
 }
 
-std::string Evolution::why_over(const RoundFacts& facts) const {
+std::set<std::size_t> Evolution::neighbours() {
+    std::vector<Genes> front;
+    for (const auto& [variant, known] : known_) {
+        if (space_.is_product() && known.found && known.found->on_front) {
+            front.push_back(known.place);
+        }
+    }
+    std::set<std::size_t> variants;
+    for (const Genes& place : front) {
+        for (Genes& beside : places_beside(space_.genes(), place)) {
+            const std::optional<std::size_t> variant = space_.add(beside).variant;
+            if (variant && tried_.count(*variant) == 0) {
+                const RunConfig& design = plan_.request.configs[*variant].config;
+                known_.emplace(*variant,
+                               Known{std::move(beside), without_frame(design, plan_.aims), {}});
+                variants.insert(*variant);
+            }
+        }
+    }
+    return variants;
+}
+
+/// The most likely ones first.
+std::vector<std::size_t> Evolution::choose_neighbours(std::size_t count) {
+    const std::set<std::size_t> beside = neighbours();
+    RoundFacts facts = round_facts();
+    const auto elsewhere = [&beside](const Prospect& prospect) {
+        return beside.count(prospect.variant) == 0;
+    };
+    facts.prospects.erase(std::remove_if(facts.prospects.begin(), facts.prospects.end(), elsewhere),
+                          facts.prospects.end());
+    std::vector<std::size_t> chosen = choose_round(facts, count);
+    for (const std::size_t variant : beside) {
+        if (chosen.size() < count &&
+            std::find(chosen.begin(), chosen.end(), variant) == chosen.end()) {
+            chosen.push_back(variant);
+        }
+    }
+    return chosen;
+}
+
+std::string Evolution::why_over(const RoundFacts& facts) {
+    if (all_) {
+        return "the budget has room for all designs";
+    }
+    if (tried_.size() == options_.budget) {
+        const std::size_t left = neighbours().size();
+        return left == 0 ? "the budget is used"
+                         : "the budget is used, and " + grouped(left) +
+                               (left == 1 ? " neighbour" : " neighbours") +
+                               " of the front were not simulated";
+    }
     const std::string kind = estimates_ ? "estimated " : whole_ ? "" : "drawn ";
-    return all_                               ? "the budget has room for all designs"
-           : tried_.size() == options_.budget ? "the budget is used"
-           : facts.prospects.empty()          ? "all " + kind + "designs were simulated"
-                                     : "no other " + kind + "design is likely to enter the front";
+    return facts.prospects.empty()
+               ? "all " + kind + "designs were simulated"
+               : "no neighbour of the front beats it, and no other " + kind + "design is likely to";
 }
 
 std::optional<Step> Evolution::next_round() {
@@ -299,7 +375,7 @@ std::optional<Step> Evolution::next_round() {
         end_ = why_over(facts);
         return {};
     }
-    for (const Prospect& prospect : facts.prospects) {
+    for (const Prospect& prospect : round_facts().prospects) { // neighbours may have joined them
         if (std::find(chosen.begin(), chosen.end(), prospect.variant) != chosen.end()) {
             believe(prospect.variant, prospect.expected.columns);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A search that estimates many designs and simulates few: NSGA-II over estimates of the analytic
 // model, then rounds of simulations, each of the designs that would add most to the front as the
-// estimates, corrected by the simulations before, have it.
+// estimates, corrected by the simulations before, have it, and at last the neighbours of the front.
 #pragma once
 
 #include <cstddef>
@@ -28,16 +28,14 @@ struct EvolutionOptions {
     std::uint64_t seed = 1;
 };
 
-class Evolution {
+class Evolution : public SearchSteps {
 public:
     /// The space adds to the plan, which has the designs that are compared with, and no other;
     /// both outlive this object. Throws InputError if the budget does not suffice for these.
     Evolution(DesignSpace& space, const StudyPlan& plan, const EvolutionOptions& options);
 
-    /// What to run next; empty at the end.
-    std::optional<Step> next();
-    /// What that found, before next() is asked again.
-    void take(const StepResults& results);
+    std::optional<Step> next() override;
+    void take(const StepResults& results) override;
     /// Valid after the end.
     Search found() const;
 
@@ -53,7 +51,11 @@ private:
     void start();
     std::optional<Step> next_generation();
     std::optional<Step> next_round();
-    std::vector<std::size_t> choose(const RoundFacts& facts) const;
+    std::vector<std::size_t> choose(const RoundFacts& facts);
+    std::vector<std::size_t> choose_neighbours(std::size_t count);
+    /// Designs one step away from one of the front that were not simulated, by variant: the next
+    /// number either way, or another word, on one axis.
+    std::set<std::size_t> neighbours();
     std::vector<std::size_t> unlike(const RoundFacts& facts, std::size_t count) const;
     RoundFacts round_facts() const;
     /// Records the expected values of a design that is going to be simulated.
@@ -66,7 +68,7 @@ private:
     /// Adds so many proposals, or fewer if hardly any is new.
     void add_proposals(std::size_t count);
     Individual individual(const Known& known) const;
-    std::string why_over(const RoundFacts& facts) const;
+    std::string why_over(const RoundFacts& facts);
 
     DesignSpace& space_;
     const StudyPlan& plan_;

@@ -153,18 +153,18 @@ void check_aims(const StudyPlan& plan) {
     kept_variants(plan);
 }
 
-std::optional<Search> search(const StudyPlan& plan, Evolution& evolution, SearchPart& part,
-                             const std::string& out, std::optional<Failure>& failure) {
-    while (const std::optional<Step> step = evolution.next()) {
+bool search(const StudyPlan& plan, SearchSteps& steps, SearchPart& part, const std::string& out,
+            std::optional<Failure>& failure) {
+    while (const std::optional<Step> step = steps.next()) {
         std::optional<Failure> of_step;
         const std::optional<StepResults> found = run_step(plan, *step, part, out, of_step);
         failure = of_step ? of_step : failure;
         if (!found) {
-            return {};
+            return false;
         }
-        evolution.take(*found);
+        steps.take(*found);
     }
-    return evolution.found();
+    return true;
 }
 
 } // namespace degs::sim

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A search for the designs that nobody beats in the goals of a plan.
+// Runs of a search, step by step.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "sim/process/failure.hpp"
-#include "sim/search/evolution.hpp"
 #include "sim/search/search_part.hpp"
 #include "sim/search/search_step.hpp"
 #include "sim/sweep/study_plan.hpp"
@@ -19,11 +18,11 @@ constexpr const char* kUsualGoals = "area_mm2,latency_ms";
 /// Throws InputError for goals and limits that runs of this plan do not have.
 void check_aims(const StudyPlan& plan);
 
-/// Runs what the evolution proposes in the folder `out` and below it, or the part of it that is
-/// this process's; an interrupted search goes on there, because the same steps find their results.
-/// Empty after Ctrl-C. Throws InputError if a design does not have what the goals and limits need,
+/// Runs what the steps ask for in the folder `out` and below it, or the part of it that is this
+/// process's; an interrupted search goes on there, because the same steps find their results.
+/// False after Ctrl-C. Throws InputError if a design does not have what the goals and limits need,
 /// and FailureError if other parts do not come.
-std::optional<Search> search(const StudyPlan& plan, Evolution& evolution, SearchPart& part,
-                             const std::string& out, std::optional<Failure>& failure);
+bool search(const StudyPlan& plan, SearchSteps& steps, SearchPart& part, const std::string& out,
+            std::optional<Failure>& failure);
 
 } // namespace degs::sim

@@ -38,6 +38,20 @@ struct StepResults {
     double cycles = 0;                   ///< simulated for single frames of all these designs
 };
 
+/// Decides what runs next by what was found before: the same steps for the same answers, so that an
+/// interrupted search finds its results again.
+class SearchSteps {
+public:
+    SearchSteps() = default;
+    virtual ~SearchSteps() = default;
+    SearchSteps(const SearchSteps&) = delete;
+    SearchSteps& operator=(const SearchSteps&) = delete;
+    /// What to run next; empty at the end.
+    virtual std::optional<Step> next() = 0;
+    /// What that found, before next() is asked again.
+    virtual void take(const StepResults& results) = 0;
+};
+
 /// What a search believed of a design when it chose to simulate it, in the order of the goals.
 struct Belief {
     std::size_t variant = 0;

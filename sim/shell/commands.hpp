@@ -13,6 +13,8 @@ void add_run_command(CLI::App& program);
 void add_compare_command(CLI::App& program);
 void add_sweep_command(CLI::App& program);
 void add_explore_command(CLI::App& program);
+void add_bandwidth_command(CLI::App& program);
+void add_buffers_command(CLI::App& program);
 void add_motion_command(CLI::App& program);
 void add_render_command(CLI::App& program);
 void add_scene_command(CLI::App& program);

@@ -35,13 +35,19 @@ struct ViewFacts {
     std::optional<ImageError> error; ///< against its reference
 };
 
+/// A key that moves a loss, and the first change of it that the design allows.
+struct LossStep {
+    std::string words;  ///< "raise KEY", "lower KEY and KEY" or "KEY=VALUE"
+    std::string change; ///< "KEY=VALUE", or several of these separated by commas
+};
+
 struct RunResult {
     SceneFacts scene;
     Camera camera; ///< of the first view of the first frame
     RunConfig config;
     WorkloadFacts workload; ///< of that view
     AcceleratorResult accelerator;
-    std::vector<std::string> movable_keys;   ///< see LossKeys::movable; asked before the simulation
+    std::vector<LossStep> movable_keys;      ///< see LossKeys::movable; asked before the simulation
     std::vector<std::string> warnings;       ///< sentences; see warnings.hpp
     std::optional<ImageError> error;         ///< of that view against the reference
     std::vector<ViewFacts> views;            ///< of the first frame, if it has several
@@ -49,6 +55,7 @@ struct RunResult {
     std::optional<FrameChanges> changes;     ///< of a run of several frames
     std::optional<SamplingFacts> sampling;   ///< if the numbers are estimates from a sample
     std::vector<WhatIf> what_if;             ///< changes that were asked for (--what-if)
+    std::vector<WhatIf> gains;               ///< changes that the largest losses name, if estimated
     HostFacts host;
 };
 

@@ -6,7 +6,6 @@
 
 #include "sim/accelerator/accelerator_run.hpp"
 #include "sim/process/memory_use.hpp"
-#include "sim/process/reserve.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/sampling/sampled_run.hpp"
 #include "sim/simulation/frame_changes.hpp"
@@ -20,33 +19,14 @@ namespace degs::sim {
 
 namespace {
 
-/// The sample that the request asks for, or the reason why there is none. A sample that turns out
-/// to be too small costs the process its simulation, so that a reserve goes on.
+/// The sample that the request asks for, or the reason why there is none.
 std::optional<SampledResult> try_sample(const RunRequest& request, const FrameWorkload& frame,
-                                        std::string& refusal, double& lost_s) {
-    Reserve reserve;
-    refusal = reserve.called_for();
-    lost_s = reserve.replaced_s();
-    if (!refusal.empty()) {
-        return {};
-    }
-    std::optional<SampledResult> sampled;
-    {
-        Progress progress("simulation of a sample");
-        sampled = run_sampled(request.config.accelerator(), frame, request.fidelity, request.build,
-                              *request.sampling, progress);
-    }
-    if (sampled->facts.refusal.empty()) {
-        return sampled;
-    }
-    refusal = sampled->facts.refusal;
-    if (sampled->facts.groups == 0) { // nothing has been simulated yet
-        return {};
-    }
-    if (!reserve.available()) {
-        throw std::runtime_error("No process could be started for the exact run. " + refusal);
-    }
-    reserve.call(refusal);
+                                        std::string& refusal) {
+    Progress progress("simulation of a sample");
+    SampledResult sampled = run_sampled(request.config.accelerator(), frame, request.fidelity,
+                                        request.build, *request.sampling, progress);
+    refusal = sampled.facts.refusal;
+    return refusal.empty() ? std::optional<SampledResult>(std::move(sampled)) : std::nullopt;
 }
 
 const char* name_of(Fidelity fidelity) {
@@ -153,18 +133,20 @@ RunResult run_frames(const RunRequest& request, FrameSource frames) {
     TakenFrames taken(std::move(frames), request.views);
     put_first_frame(request, taken.first(), result);
     std::string refusal;
-    double lost_s = 0;
     std::optional<SampledResult> sampled;
     if (request.sampling) {
         if (taken.several()) {
             throw std::logic_error("a sample of tiles is of one frame, and the run has several");
         }
-        sampled = try_sample(request, *taken.first().front(), refusal, lost_s);
+        sampled = try_sample(request, *taken.first().front(), refusal);
     }
     std::vector<std::string> later; // warnings of the run
     if (sampled) {
         result.accelerator = std::move(sampled->result);
         result.sampling = std::move(sampled->facts);
+        if (!result.sampling->warning.empty()) {
+            later.push_back(result.sampling->warning);
+        }
     } else {
         Progress progress("simulation");
         result.accelerator =
@@ -184,7 +166,7 @@ RunResult run_frames(const RunRequest& request, FrameSource frames) {
     }
     append(result.warnings, later);
     append(result.warnings, hazard_warnings(result.accelerator));
-    put_host(request, result, lost_s + clock.seconds() - taken.made_s());
+    put_host(request, result, clock.seconds() - taken.made_s());
     return result;
 }
 

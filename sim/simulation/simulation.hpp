@@ -22,9 +22,8 @@ struct RunRequest {
 /// Runs the accelerator on frames that are made for it (at least one, of as many views as the
 /// request says), each when it is needed. The caller completes the result (completed_run.hpp) and
 /// fills in the host times of earlier steps. Throws std::logic_error if the model violates an
-/// invariant. May be called once per process. If a sample is asked for that does not reach the
-/// interval, the run is exact, with a warning; another process may go on with it then. InputError
-/// for a sample of several frames.
+/// invariant. May be called once per process. If no sample will do, the run is exact, with a
+/// warning. InputError for a sample of several frames.
 RunResult run_frames(const RunRequest& request, FrameSource frames);
 
 } // namespace degs::sim

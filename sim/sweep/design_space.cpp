@@ -5,11 +5,13 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.hpp"
 #include "config/config_words.hpp"
+#include "config/quantity.hpp"
 #include "degs/error.hpp"
 #include "sim/shell/output_folder.hpp"
 #include "sim/study/addressed_overrides.hpp"
@@ -94,12 +96,26 @@ void list_one_at_a_time(std::size_t design, const std::vector<Gene>& genes,
     }
 }
 
-/// Whether the positions of an axis are numbers of one key, so that they have an order.
+/// Whether the positions of an axis are numbers of one key that rise or fall, so that neighbours
+/// are alike. Numbers in one unit, or of none, are compared as they are written.
 bool is_ordered(const Axis& axis) {
-    return axis.keys.size() == 1 &&
-           std::all_of(axis.positions.begin(), axis.positions.end(), [](const auto& position) {
-               return position.front().quantity || position.front().draw;
-           });
+    if (axis.keys.size() != 1) {
+        return false;
+    }
+    std::vector<double> numbers;
+    std::set<std::string> units;
+    for (const std::vector<AxisValue>& position : axis.positions) {
+        const AxisValue& value = position.front();
+        const std::optional<Quantity> quantity =
+            value.quantity ? value.quantity : parse_quantity(value.text);
+        if (!value.draw && !quantity) {
+            return false;
+        }
+        numbers.push_back(value.draw ? value.draw->position : quantity->number);
+        units.insert(value.draw ? "" : quantity->unit + (quantity->factor ? "x" : ""));
+    }
+    return units.size() == 1 && (std::is_sorted(numbers.begin(), numbers.end()) ||
+                                 std::is_sorted(numbers.rbegin(), numbers.rend()));
 }
 
 } // namespace

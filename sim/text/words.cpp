@@ -112,6 +112,10 @@ std::string time_words(double seconds) {
     return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
 }
 
+std::string count_words(std::uint64_t count, const char* one, const char* many) {
+    return grouped(count) + " " + (count == 1 ? one : many);
+}
+
 std::string percent(double share, int decimals) {
     return fixed(share * 100, decimals);
 }

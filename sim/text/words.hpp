@@ -32,6 +32,8 @@ inline std::string scaled(std::uint64_t value) {
 }
 /// 54512345 -> "54.5 MB", 448 -> "448 B".
 std::string scaled_bytes(std::uint64_t bytes);
+/// 1 -> "1 view", 2000 -> "2 000 views".
+std::string count_words(std::uint64_t count, const char* one, const char* many);
 /// 42.4 -> "42 s", 150 -> "2 min 30 s", 7500 -> "2 h 5 min".
 std::string time_words(double seconds);
 /// 0.834 -> "83.4"; the percent sign is the caller's.

@@ -4,6 +4,7 @@
 #include <map>
 #include <sys/resource.h>
 
+#include "sim/search/evolution.hpp"
 #include "sim/search/rank_correlation.hpp"
 #include "sim/search/search.hpp"
 #include "tests/sim/process/child.hpp"

@@ -21,6 +21,12 @@ TEST(StudentT, HasTheTabulatedQuantiles) {
     EXPECT_NEAR(student_t(30), 2.042, 0.001);
     EXPECT_NEAR(student_t(1000000), 1.960, 0.001);
     EXPECT_TRUE(std::isinf(student_t(0)));
+    // Two-sided 2 % and 1 %.
+    EXPECT_NEAR(student_t(1, 0.98), 31.821, 0.01);
+    EXPECT_NEAR(student_t(2, 0.98), 6.965, 0.001);
+    EXPECT_NEAR(student_t(10, 0.98), 2.764, 0.002);
+    EXPECT_NEAR(student_t(60, 0.98), 2.390, 0.001);
+    EXPECT_NEAR(student_t(1000000, 0.99), 2.576, 0.001);
 }
 
 /// Blocks whose sizes differ, the same ones for the same seed.

@@ -157,7 +157,21 @@ void expect_exact(const std::vector<std::string>& more, const std::string& words
 }
 
 TEST(SmallRunSampledOnce, IsExactWhereASampleCannotBeNarrowEnough) {
-    expect_exact({"--within", "0.1%"}, "is not to be had");
+    expect_exact({"--within", "0.3%"}, "no sample is as narrow as was asked for");
+}
+
+// The run says what it has reached, and does not begin anew.
+TEST(SmallRunSampledOnce, EndsWhereAnExactRunTakesNoLonger) {
+    const Folder folder;
+    const Outcome outcome = degs(fed_run("gscore-64", folder / "out", {"--within", "0.32%"}));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("beyond which an exact run takes no longer"), std::string::npos)
+        << outcome.err;
+    const json facts = report_in(folder / "out")["sampling"];
+    EXPECT_GT(facts["reached"], 0.0032);
+    const double share = number(facts, "tiles_measured") / number(facts, "tiles");
+    EXPECT_GE(share, 0.5);
+    EXPECT_LE(share, 0.56); // by a group
 }
 
 TEST(SampledRunOnce, IsExactWhereTilesDependOnEachOther) {

@@ -25,6 +25,8 @@ const std::map<std::string, Words> kCommands{
     {"compare", {"design.yaml"}},
     {"sweep", {"study.yaml"}},
     {"explore", {"study.yaml"}},
+    {"bandwidth", {"design.yaml"}},
+    {"buffers", {"design.yaml"}},
     {"motion", {"design.yaml", "--scene", "synthetic:single"}},
     {"render", {"--scene", "synthetic:single"}},
     {"scene info", {"synthetic:single"}},

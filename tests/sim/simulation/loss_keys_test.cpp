@@ -23,8 +23,9 @@ std::optional<bool> is_named(const LossKey& knob, const std::string& value) {
     }
     result.movable_keys = LossKeys(result).movable();
     const std::string words = (knob.way == LossKey::Way::Raise ? "raise " : "lower ") + knob.name();
-    const std::vector<std::string> keys = LossKeys(result).of(knob.cause);
-    return std::find(keys.begin(), keys.end(), words) != keys.end();
+    const std::vector<LossStep> steps = LossKeys(result).of(knob.cause);
+    return std::any_of(steps.begin(), steps.end(),
+                       [&words](const LossStep& step) { return step.words == words; });
 }
 
 /// The end of a range, "1 to 64" or "at least 0", that a way leads to; empty if it has none.

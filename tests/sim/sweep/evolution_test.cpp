@@ -3,12 +3,14 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <map>
 #include <set>
 #include <thread>
 
 #include "sim/search/breeding.hpp"
 #include "sim/search/forecast.hpp"
 #include "sim/search/hypervolume.hpp"
+#include "tests/sim/process/csv_rows.hpp"
 #include "tests/sim/sweep/search_spaces.hpp"
 
 namespace degs::sim_test {
@@ -166,6 +168,48 @@ TEST(Evolution, FindsTheFrontOfAllDesigns) {
     EXPECT_NE(read_file(folder / "few/index.html").find("24 designs estimated, "),
               std::string::npos);
     EXPECT_FALSE(fs::exists(folder / "all/beliefs.csv"));
+}
+
+/// The keys of two_view_space() of the designs in front.csv, and whether they are on the front.
+std::map<std::vector<double>, bool> designs_in(const std::string& folder) {
+    std::map<std::vector<double>, bool> designs;
+    for (const CsvRow& row : rows_by_heading(read_file(folder + "/front.csv"))) {
+        std::vector<double> keys;
+        for (const char* key : {"span.count", "array.pes_per_bank", "packing.bytes"}) {
+            keys.push_back(std::stod(row.at(key)));
+        }
+        designs[keys] = row.at("on_front") == "1";
+    }
+    return designs;
+}
+
+// Whoever changes one key of a design on the front by one step finds nothing better.
+TEST(Evolution, EndsWhereNoNeighbourBeatsTheFront) {
+    const Folder folder;
+    const std::string file = two_view_space(folder);
+    const auto found = explored(file, folder / "out", {"--budget", "22"});
+    EXPECT_EQ(found["search"]["end"], "no neighbour of the front beats it, and no other estimated "
+                                      "design is likely to");
+    explored(file, folder / "all", {"--budget", "24"});
+    const auto simulated = designs_in(folder / "out"), all = designs_in(folder / "all");
+    EXPECT_LT(simulated.size(), all.size());
+    int front = 0;
+    for (const auto& [keys, on_front] : simulated) {
+        for (const auto& [other, any] : all) {
+            int steps = 0; // values of each key differ by factors of 2
+            for (std::size_t k = 0; k < keys.size(); ++k) {
+                steps += static_cast<int>(std::abs(std::log2(keys[k] / other[k])));
+            }
+            EXPECT_TRUE(!on_front || steps != 1 || simulated.count(other) != 0)
+                << other[0] << " " << other[1] << " " << other[2];
+        }
+        front += on_front ? 1 : 0;
+    }
+    EXPECT_GE(front, 3);
+    const auto few = explored(file, folder / "few", {"--budget", "6"});
+    EXPECT_NE(few["search"]["end"].get<std::string>().find("of the front were not simulated"),
+              std::string::npos)
+        << few["search"]["end"];
 }
 
 TEST(Evolution, TriesADesignThatFailsOnce) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "sim/search/evolution.hpp"
 #include "sim/search/search.hpp"
 #include "tests/sim/process/child.hpp"
 #include "tests/sim/process/csv_rows.hpp"

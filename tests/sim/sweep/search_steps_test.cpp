@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/search/breeding.hpp"
+#include "sim/search/evolution.hpp"
 #include "sim/search/round_choice.hpp"
 #include "sim/search/search.hpp"
 #include "sim/search/search_record.hpp"
@@ -102,10 +103,11 @@ TEST(SearchCycles, AreThoseOfSimulationsAlone) {
     Evolution evolution(space, plan, options);
     SearchPart alone;
     std::optional<Failure> failure;
-    const std::optional<Search> found = search(plan, evolution, alone, folder / "out", failure);
-    ASSERT_TRUE(found && found->estimates);
-    EXPECT_EQ(found->estimates->candidates.size(), 3U);
-    EXPECT_EQ(found->estimates->cycles, 0);
+    ASSERT_TRUE(search(plan, evolution, alone, folder / "out", failure));
+    const Search found = evolution.found();
+    ASSERT_TRUE(found.estimates);
+    EXPECT_EQ(found.estimates->candidates.size(), 3U);
+    EXPECT_EQ(found.estimates->cycles, 0);
     const auto written = nlohmann::json::parse(sim_test::read_file(folder / "out/results.json"));
     double cycles = 0;
     for (const auto& run : written["runs"]) {
@@ -113,7 +115,7 @@ TEST(SearchCycles, AreThoseOfSimulationsAlone) {
         cycles += run["cycles"].get<double>();
     }
     EXPECT_EQ(written["runs"].size(), 2U);
-    EXPECT_EQ(found->results.cycles, cycles);
+    EXPECT_EQ(found.results.cycles, cycles);
 }
 
 // Once is enough: what another part has found to fail is not run again.

@@ -143,7 +143,7 @@ AcceleratorResult run_on_memory(Cycle before, std::uint64_t starved) {
     result.streams[0].bytes_read = 10 * before;
     result.streams[1].bytes_read = 10 * (100 - before);
     result.stages = {{"projection", "", false, 1, 0.5 * static_cast<double>(before), 0.2, {}, 1},
-                     {"blending", "", true, 10, 0, 0.9, {}}};
+                     {"blending", "", true, 10, 10.0 * static_cast<double>(100 - before), 0.9, {}}};
     return result;
 }
 
@@ -171,6 +171,11 @@ TEST(LimitingStage, IsMemoryIfMoreThanHalfIsLostForIt) {
     result = run_on_memory(40, 600);
     result.memory_utilization = 0.5; // the bus is busier than any stage only before the first task
     result.stages[1].busy = 0.4;
+    EXPECT_EQ(limiting_stage(result), "blending");
+    result = run_on_memory(10, 99);
+    result.stages[1].busy_cycles = 850; // 94 % of the time of ten units, and the bus all of it
+    EXPECT_EQ(limiting_stage(result), "memory");
+    result.stages[1].busy_cycles = 900;
     EXPECT_EQ(limiting_stage(result), "blending");
     result.stages.clear();
     EXPECT_EQ(limiting_stage(result), "");

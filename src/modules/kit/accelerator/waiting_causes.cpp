@@ -88,8 +88,17 @@ std::optional<double> WaitingCauses::lost_for_memory() const {
     return lost / all;
 }
 
+bool WaitingCauses::is_memory_busiest() const {
+    return is_memory_busy() &&
+           std::all_of(run_.stages.begin(), run_.stages.end(), [this](const StageUse& stage) {
+               return in_window(stage) < memory_in_window();
+           });
+}
+
 std::string limiting_stage(const AcceleratorResult& result) {
-    if (WaitingCauses(result).lost_for_memory().value_or(0) > kMemoryBound) {
+    const WaitingCauses causes(result);
+    if (causes.lost_for_memory().value_or(0) > kMemoryBound ||
+        (!result.stages.empty() && causes.is_memory_busiest())) {
         return "memory";
     }
     const auto busiest =

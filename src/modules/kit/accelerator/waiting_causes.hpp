@@ -43,6 +43,8 @@ public:
     /// Share of the PE-cycles of the run in which the array waited for the bandwidth of memory:
     /// before the first task, starved or blocked. Empty for memory without limit.
     std::optional<double> lost_for_memory() const;
+    /// Whether the data bus was busy, and busier than every stage, while the array worked.
+    bool is_memory_busiest() const;
 
 private:
     /// What a stage or a stream did while the array worked, as a part of all that it did: the first
@@ -58,8 +60,9 @@ private:
 /// From this share on the run is limited by memory.
 constexpr double kMemoryBound = 0.5;
 
-/// "memory" if more than kMemoryBound of the PE-cycles of the run were lost for it; else the
-/// busiest stage. Empty without stages.
+/// "memory" if more than kMemoryBound of the PE-cycles of the run were lost for it, or if its data
+/// bus was busier than every stage while the array worked; else the busiest stage. Empty without
+/// stages.
 std::string limiting_stage(const AcceleratorResult& result);
 
 } // namespace degs

@@ -17,12 +17,19 @@
 namespace degs {
 
 /// Memory as a rate and a latency, which is what `memory.model: bus` is. The rate of LPDDR5 is that
-/// of its bus: refreshes, activations and turnarounds are left out.
+/// of its bus: refreshes, activations and turnarounds are left out. Its latency is that of a read
+/// from a closed bank.
 struct MemoryRate {
     double bytes_per_cycle = 0, latency = 0; ///< latency in cycles
     MemoryRate(const MainMemoryConfig& memory, double clock_ghz)
         : bytes_per_cycle(memory.peak_gb_per_s() / clock_ghz),
-          latency(memory.latency_ns * clock_ghz) {}
+          latency(latency_ns(memory) * clock_ghz) {}
+    static double latency_ns(const MainMemoryConfig& memory) {
+        const dram::Timing& timing = memory.lpddr5.timing;
+        return memory.model == MemoryModel::Lpddr5
+                   ? timing.ck_ns() * (timing.rcd + timing.read_latency())
+                   : memory.latency_ns;
+    }
     double cycles(double bytes) const { return bytes / bytes_per_cycle; }
     /// What writing takes of memory, the unit with that number, and of nothing else.
     TileCycles writes(double bytes, std::size_t unit) const {
