@@ -2,6 +2,7 @@
 #include "sim/program.hpp"
 
 #include <iostream>
+#include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -72,6 +73,8 @@ void quieten_kernel() {
     sc_report_handler::set_actions(sc_core::SC_FATAL, sc_core::SC_THROW);
 }
 
+PreparedProgram prepared_program();
+
 void add_commands(CLI::App& program) {
     program.require_subcommand(1);
     program.set_version_flag("--version", "degs " DEGS_VERSION);
@@ -90,8 +93,40 @@ void add_commands(CLI::App& program) {
     add_config_command(program);
     add_accuracy_command(program);
     add_registers_command(program);
+    add_serve_command(program, prepared_program);
     add_help_command(program);
     require_decimal_numbers(program);
+}
+
+/// Of the exception that is caught.
+int fail() {
+    const Failure failure = failure_of(std::current_exception());
+    return fail(failure.code, failure.sentence);
+}
+
+int run(CLI::App& program, int argc, char* argv[]) {
+    try {
+        spare_inputs();
+        announce_interruption();
+        quieten_kernel();
+        when_parsed(program, [&program](const CLI::App& command) {
+            refuse_combinations(command);
+            state_command(stated_command(program));
+        });
+        parse(program, argc, argv);
+        return kSuccess;
+    } catch (const CLI::ParseError& error) {
+        return fail(kUserError, explain_mistake(program, error));
+    } catch (...) {
+        return fail();
+    }
+}
+
+PreparedProgram prepared_program() {
+    auto program = std::make_shared<CLI::App>(
+        "SystemC/TLM model of the DeGS accelerator for 3D Gaussian Splatting", "degs");
+    add_commands(*program);
+    return [program](int argc, char* argv[]) { return run(*program, argc, argv); };
 }
 
 } // namespace
@@ -111,24 +146,11 @@ void add_addressed_overrides_option(CLI::App& command, std::vector<std::string>&
 }
 
 int run_program(int argc, char* argv[]) {
-    CLI::App program("SystemC/TLM model of the DeGS accelerator for 3D Gaussian Splatting", "degs");
     try {
         require_stack();
-        spare_inputs();
-        announce_interruption();
-        quieten_kernel();
-        add_commands(program);
-        when_parsed(program, [&program](const CLI::App& command) {
-            refuse_combinations(command);
-            state_command(stated_command(program));
-        });
-        parse(program, argc, argv);
-        return kSuccess;
-    } catch (const CLI::ParseError& error) {
-        return fail(kUserError, explain_mistake(program, error));
+        return prepared_program()(argc, argv);
     } catch (...) {
-        const Failure failure = failure_of(std::current_exception());
-        return fail(failure.code, failure.sentence);
+        return fail();
     }
 }
 

@@ -5,15 +5,17 @@
     report = degs.run("degs-64", "synthetic:object,gaussians=2000", camera=2, width=320)
     report.cycles, report.energy.nj_per_frame, report.image.shape
 
-Each simulation is a process of its own, because SystemC elaborates once per process. docs/python.md is the tour."""
+Each call is a process of its own, or with `degs.Session` a request to one server. docs/python.md is the tour."""
 
+from .commands import accuracy, memory, motion, scene, soc, workload
 from .design import Design, Section
 from .process import DegsWarning, Error, Missing, program, version
 from .report import Node, Report, run
+from .session import Session
 from .studies import Study, compare, statistics, sweep
 
-__all__ = ["Design", "DegsWarning", "Error", "Missing", "Node", "Report", "Section", "Study", "compare", "program",
-           "run", "statistics", "sweep", "version"]
+__all__ = ["Design", "DegsWarning", "Error", "Missing", "Node", "Report", "Section", "Session", "Study", "accuracy",
+           "compare", "memory", "motion", "program", "run", "scene", "soc", "statistics", "sweep", "version", "workload"]
 __version__ = "0.1.0"
 
 for _each in (DegsWarning, Error, Missing):

@@ -12,8 +12,9 @@ import sys
 import tempfile
 import threading
 import warnings
+from contextvars import ContextVar
 from pathlib import Path
-from typing import IO, Any, Callable, List, Optional, Sequence, Union
+from typing import IO, Any, Callable, Dict, List, NamedTuple, Optional, Protocol, Sequence, Union
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -61,7 +62,10 @@ def near(name: str, names: Sequence[str], what: str) -> str:
 def program() -> str:
     """The path of the program: DEGS_PROGRAM, or beside the package in a build tree or an installation, or on PATH.
 
-    Raises Error if there is none."""
+    In a session it is that of the session. Raises Error if there is none."""
+    server = SERVER.get()
+    if server:
+        return server.program
     named = os.environ.get("DEGS_PROGRAM")
     if named:
         if not os.access(named, os.X_OK) or os.path.isdir(named):
@@ -102,38 +106,77 @@ def version() -> str:
     return call(["--version"]).split()[-1]
 
 
+class Ended(NamedTuple):
+    """What a command has left: its exit code, what it printed, and the lines of stderr that were not taken."""
+
+    code: int
+    printed: str
+    said: List[str]
+
+
+class Server(Protocol):
+    """What runs commands without a process start each."""
+
+    program: str
+
+    def command(self, arguments: Sequence[str], take: Callable[[str], bool]) -> Ended:
+        """Runs a command; `take` is called with each line of stderr, and says whether it takes it."""
+
+
+SERVER: "ContextVar[Optional[Server]]" = ContextVar("degs.SERVER", default=None)
+"""The server that calls of this thread go to; None: each is a process."""
+
+
 def call(arguments: Sequence[str], progress: Optional[bool] = None, warn: bool = True) -> str:
     """Calls the program and returns what it prints.
 
     Lines of progress become a bar (`progress`: None shows one in notebooks and terminals), warnings become DegsWarning
     unless `warn` is false. Raises Error with the program's sentence. An interrupt ends the program, too; its folder
     then holds what had finished."""
+    server = SERVER.get()
     command = [program(), *arguments]
     for word in command:
         if "\0" in word:
             raise Error(f"A name or value cannot hold a zero, as {word!r} does.", command=command)
-    environment = {**os.environ, "LC_ALL": "C.UTF-8"}
-    with tempfile.TemporaryFile("w+", encoding="utf-8") as printed:
-        try:
-            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=printed, stderr=subprocess.PIPE,
-                                       encoding="utf-8", errors="replace", env=environment)
-        except OSError as problem:
-            raise Error(f"The program '{command[0]}' does not start: {problem.strerror}.", command=command) from None
-        said = listen(process, Progress(progress))
-        printed.seek(0)
-        output = printed.read()
-    if process.returncode:
-        raise Error(sentence_of(said, process.returncode), process.returncode, command)
-    for line in said if warn else []:
+    bar = Progress(progress)
+    try:
+        ended = server.command(arguments, bar.line) if server else run_process(command, bar.line)
+    finally:
+        bar.close()
+    if ended.code:
+        raise Error(sentence_of(ended.said, ended.code), ended.code, command)
+    for line in ended.said if warn else []:
         warnings.warn(PREFIX.sub("", line).replace("warning: ", "", 1), DegsWarning, stacklevel=outside())
-    return output
+    return ended.printed
 
 
-def listen(process: "subprocess.Popen[str]", progress: "Progress") -> List[str]:
-    """The lines of stderr that are not progress, when the process has ended."""
+def environment() -> Dict[str, str]:
+    """The environment of the program, which prints UTF-8."""
+    return {**os.environ, "LC_ALL": "C.UTF-8"}
+
+
+def start(command: Sequence[str], **streams: Any) -> "subprocess.Popen[str]":
+    """Starts the program. Raises Error if that is not possible."""
+    try:
+        return subprocess.Popen(command, encoding="utf-8", errors="replace", env=environment(), **streams)
+    except OSError as problem:
+        raise Error(f"The program '{command[0]}' does not start: {problem.strerror}.", command=command) from None
+
+
+def run_process(command: Sequence[str], take: Callable[[str], bool]) -> Ended:
+    """Runs the program in a process of its own."""
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as printed:
+        process = start(command, stdin=subprocess.DEVNULL, stdout=printed, stderr=subprocess.PIPE)
+        said = listen(process, take)
+        printed.seek(0)
+        return Ended(process.returncode, printed.read(), said)
+
+
+def listen(process: "subprocess.Popen[str]", take: Callable[[str], bool]) -> List[str]:
+    """The lines of stderr that are not taken, when the process has ended."""
     said: List[str] = []
     assert process.stderr is not None
-    reader = threading.Thread(target=read_lines, args=(process.stderr, said, progress.line), daemon=True)
+    reader = threading.Thread(target=read_lines, args=(process.stderr, said, take), daemon=True)
     reader.start()
     try:
         process.wait()
@@ -148,8 +191,6 @@ def listen(process: "subprocess.Popen[str]", progress: "Progress") -> List[str]:
                 process.kill()
                 process.wait()
         raise
-    finally:
-        progress.close()
     return said
 
 

@@ -10,7 +10,7 @@ import io
 import json
 import tempfile
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy
 import pandas
@@ -88,14 +88,16 @@ def wrapped(value: Any, path: str) -> Any:
 class Report(Node):
     """The report of a run: the sections of report.json, and the keys of `timing` (`cycles`, `latency_ms`) directly.
 
-    `image` is the picture; `folder` has all files of the run if `out` was given. Notebooks show the picture."""
+    `image` is the picture; `folder` has all files of the run if `out` was given. Notebooks show the picture. Other
+    commands have reports of the same type, with their tables as data frames in `tables`."""
 
     def __init__(self, values: Mapping[str, Any], png: Optional[bytes] = None, folder: Optional[Path] = None,
-                 printed: str = "") -> None:
+                 printed: str = "", tables: Optional[Mapping[str, pandas.DataFrame]] = None) -> None:
         super().__init__(values)
         self._png = png
         self.folder = folder
         self.printed = printed
+        self.tables = dict(tables or {})
 
     def _get(self, name: str) -> Any:
         timing = self._values.get("timing", {})
@@ -113,8 +115,17 @@ class Report(Node):
     def image(self) -> "numpy.ndarray[Any, numpy.dtype[numpy.uint8]]":
         """The picture, height x width x 3, 0 to 255, as image.png has it. Raises Error for an estimate."""
         if self._png is None:
-            raise Error("An estimate has no picture; run it with fidelity='exact'.")
+            estimated = self._values.get("schema", {}).get("name") == "degs-analytic"
+            raise Error("An estimate has no picture; run it with fidelity='exact'." if estimated else
+                        "The report has no picture; only those of degs.run have one.")
         return numpy.asarray(Image.open(io.BytesIO(self._png)).convert("RGB"))
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """The first of the tables. Raises Error if there is none."""
+        for first in self.tables.values():
+            return first
+        raise Error("The report has no table.")
 
     @property
     def losses_frame(self) -> pandas.DataFrame:
@@ -162,7 +173,7 @@ def run(design: Union[Design, PathLike], scene: Optional[PathLike] = None, *, ca
     design ({"span.count": 16}), as do keys without a dot as arguments (clock_ghz=0.5) and sections
     (span={"count": 16}). Without `out`, no files are kept. May run in several threads at once. Raises Error
     with the program's sentence."""
-    chosen = changed(design if isinstance(design, Design) else Design(design), keys, top_keys)
+    chosen = changed(design, keys, top_keys, run)
     options = options_of(scene=scene, camera=camera, camera_file=camera_file, width=width, height=height,
                          resolution=resolution, crop=crop, frames=frames, path_step=path_step, fidelity=fidelity,
                          within=within, seed=seed, memory=memory, trace=trace, trace_step=trace_step, maps=maps,
@@ -182,12 +193,15 @@ def run(design: Union[Design, PathLike], scene: Optional[PathLike] = None, *, ca
     return Report(values, png, None if out is None else folder, lines)
 
 
-def changed(design: Design, keys: Optional[Mapping[str, Any]], top_keys: Mapping[str, Any]) -> Design:
-    """The design with other values. Of an unknown key that was meant as an argument, the sentence says so."""
+def changed(design: Union[Design, PathLike], keys: Optional[Mapping[str, Any]], top_keys: Mapping[str, Any],
+            function: Callable[..., Any]) -> Design:
+    """The design with other values. Of an unknown key that was meant as an argument of `function`, the sentence says
+    so."""
+    design = design if isinstance(design, Design) else Design(design)
     try:
         return design.with_(keys, **top_keys)
     except Missing as missing:
-        arguments = [name for name in inspect.signature(run).parameters if name not in ("design", "top_keys")]
+        arguments = [name for name in inspect.signature(function).parameters if name not in ("design", "top_keys")]
         for name in top_keys:
             close = difflib.get_close_matches(name, arguments, 2)
             words = f"key '{name}' is unknown"
@@ -197,7 +211,8 @@ def changed(design: Design, keys: Optional[Mapping[str, Any]], top_keys: Mapping
         raise
 
 
-FLAGS = ("no_reference", "no_cache", "array_only", "quick", "equal_area", "explain", "list", "collect", "slurm")
+FLAGS = ("no_reference", "no_cache", "array_only", "quick", "equal_area", "explain", "list", "collect", "slurm",
+         "no_curve", "in_scene", "no_error_images", "single_gaussian", "hard_cases")
 """Options that are there or not."""
 
 

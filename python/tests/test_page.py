@@ -12,7 +12,7 @@ PAGE = ROOT / "docs/python.md"
 
 def test_the_examples_of_the_page():
     blocks = re.findall(r"^```pycon\n(.*?)^```$", PAGE.read_text(), re.MULTILINE | re.DOTALL)
-    assert len(blocks) == 3
+    assert len(blocks) == 5
     test = doctest.DocTestParser().get_doctest("\n".join(blocks), {}, "docs/python.md", str(PAGE), 0)
     report: list = []
     failed, tried = doctest.DocTestRunner().run(test, out=report.append)

@@ -57,6 +57,10 @@ std::string flip_words(const AccuracyRow& row) {
     return percent(share, 4);
 }
 
+std::string camera_words(const AccuracyRow& row) {
+    return (row.camera ? std::to_string(*row.camera) : "") + (row.eye.empty() ? "" : " ") + row.eye;
+}
+
 nlohmann::ordered_json or_null(const std::string& words) {
     return words.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(words);
 }
@@ -88,13 +92,19 @@ void add_image_keys(const AccuracyRow& row, nlohmann::ordered_json& json) {
 
 } // namespace
 
+void name_view(const ViewRequest& view, const GroupRequest& group, std::size_t number,
+               AccuracyRow& row) {
+    row.camera = group.cameras.empty() ? view.camera : group.cameras[number];
+    row.eye = !group.eyes_m ? "" : number == 0 ? "left" : "right";
+}
+
 std::string accuracy_table(const std::vector<AccuracyRow>& rows) {
     TextTable table({"scene", "camera", "size", "numbers", "mean", "spread", "max", "to fp16",
                      "flips %", "PSNR dB", "SSIM", "FLIP", "pixel max", "non-finite", "ends",
                      "worst pixel"});
     for (const AccuracyRow& row : rows) {
-        table.add({row.scene, row.camera ? std::to_string(*row.camera) : "", row.resolution,
-                   row.numbers, error_words(row.alpha_error_mean), error_words(row.spread),
+        table.add({row.scene, camera_words(row), row.resolution, row.numbers,
+                   error_words(row.alpha_error_mean), error_words(row.spread),
                    error_words(row.alpha_error_max), error_words(row.mean_to_fp16), flip_words(row),
                    decibel_words(row), row.ssim ? ssim_words(*row.ssim) : "", error_words(row.flip),
                    error_words(row.max_abs_error), grouped(row.nonfinite), row.span_ends,
@@ -109,6 +119,9 @@ nlohmann::ordered_json accuracy_json(const std::vector<AccuracyRow>& rows) {
         nlohmann::ordered_json json;
         json["scene"] = row.scene;
         json["camera"] = row.camera ? nlohmann::ordered_json(*row.camera) : nullptr;
+        if (!row.eye.empty()) {
+            json["eye"] = row.eye;
+        }
         json["resolution"] = row.resolution;
         json["numbers"] = row.numbers;
         json["alpha_error_mean"] = number_json(row.alpha_error_mean);

@@ -3,6 +3,7 @@
 // JSON.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,6 +36,7 @@ struct WorstPixel {
 struct AccuracyRow {
     std::string scene;           ///< or "isotropic-3", "random"
     std::optional<int> camera;   ///< position in the scene's list
+    std::string eye;             ///< "left" or "right"; empty: the camera is one view
     std::string resolution;      ///< "1920x1080", of single Gaussians "32x32"
     std::string numbers;         ///< number set, or "fp16-direct"
     double alpha_error_mean = 0; ///< absolute, against fp64, over all pixels
@@ -57,6 +59,10 @@ struct AccuracyRow {
     std::uint64_t flips = 0;   ///< pixels that only one of the two draws
 };
 
+/// Which camera of the scene, and which eye, view `number` of the group is.
+void name_view(const ViewRequest& view, const GroupRequest& group, std::size_t number,
+               AccuracyRow& row);
+
 /// A table for terminals.
 std::string accuracy_table(const std::vector<AccuracyRow>& rows);
 /// accuracy.json: a list of objects, one per row, in this order.
@@ -69,6 +75,7 @@ struct SingleGaussianRequest {
     int gaussians = 2000;           ///< per kind
     RenderingRules rules;           ///< of the views
     std::vector<ViewRequest> views; ///< whose projected Gaussians are a kind each
+    GroupRequest group;             ///< of each view: eyes, or cameras
 };
 /// Kinds: isotropic-3 and random (single_gaussian.hpp), then those of the views, drawn from the
 /// visible splats. The first row of a kind is fp16-direct. Throws InputError.
@@ -79,14 +86,15 @@ std::vector<AccuracyRow> measure_single_gaussians(const SingleGaussianRequest& r
 struct SceneAccuracyRequest {
     std::vector<std::string> sets;        ///< as numbers_of() reads them
     std::vector<ViewRequest> scenes;      ///< a view's own resolution does not count
-    std::vector<std::string> resolutions; ///< of resolution_names(); empty: the cameras' own
+    GroupRequest group;                   ///< of each view: eyes, or cameras
+    std::vector<std::string> resolutions; ///< as image_size() reads them; empty: the views' own
     std::string span_ends;                ///< for every set; empty: each set's own
     int tile_size = 32;                   ///< px; outward ends and bases of spans depend on it
     std::optional<ExponentGemm> gemm;     ///< exponents are products of matrices
     RenderingRules rules;                 ///< of the views
     bool error_images = true;             ///< write test - reference as EXR
 };
-/// One row per scene, resolution and set. Throws InputError.
+/// One row per scene, resolution, view and set. Throws InputError.
 std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
                                         const OutputFolder& out);
 /// The paths of the error images that an earlier measurement left beside its accuracy.json.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole images of number sets against the double-precision reference.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -18,6 +19,7 @@
 #include "sim/view/frame_warnings.hpp"
 #include "sim/view/reference.hpp"
 #include "sim/view/view.hpp"
+#include "sim/view/view_group.hpp"
 
 namespace degs::sim {
 namespace {
@@ -141,6 +143,33 @@ void measure_frame(const SceneAccuracyRequest& request, Frame& frame, const Outp
     }
 }
 
+/// The scene of a view, whose cameras get their sizes later.
+Scene loaded_scene(const ViewRequest& view) {
+    check_view(view);
+    const Progress progress("loading " + view.scene);
+    return load_scene(view.scene, view.camera_file);
+}
+
+std::vector<ViewRequest> in_all_sizes(const ViewRequest& view,
+                                      const std::vector<std::string>& resolutions) {
+    std::vector<ViewRequest> views(std::max<std::size_t>(resolutions.size(), 1), view);
+    for (std::size_t i = 0; i < resolutions.size(); ++i) {
+        views[i].resolution = resolutions[i];
+    }
+    return views;
+}
+
+Frame frame_of(const SceneAccuracyRequest& request, const Scene& scene, const Camera& camera) {
+    Frame frame;
+    frame.row.resolution = std::to_string(camera.width) + "x" + std::to_string(camera.height);
+    frame.cloud = &scene.cloud;
+    frame.workload = make_frame_workload(scene.cloud, camera, request.tile_size, TileMode::Exact,
+                                         request.rules.options(scene.traits.antialiased));
+    print_warnings(near_plane_warnings(frame.workload));
+    frame.reference = make_reference(frame.workload).image;
+    return frame;
+}
+
 } // namespace
 
 std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
@@ -148,29 +177,16 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
     std::vector<AccuracyRow> rows;
     const std::vector<std::string> labels = scene_labels(request.scenes);
     for (std::size_t s = 0; s < labels.size(); ++s) {
-        const ViewRequest& view = request.scenes[s];
-        const View loaded = load_view(view);
-        print_warnings(loaded.scene.notes);
-        std::vector<Camera> cameras;
-        for (const std::string& name : request.resolutions) {
-            cameras.push_back(resize(loaded.camera, std::nullopt, resolution_height(name)));
-        }
-        if (cameras.empty()) {
-            cameras.push_back(loaded.camera);
-        }
-        for (const Camera& camera : cameras) {
-            Frame frame;
-            frame.row.scene = labels[s];
-            frame.row.camera = view.camera;
-            frame.row.resolution =
-                std::to_string(camera.width) + "x" + std::to_string(camera.height);
-            frame.cloud = &loaded.scene.cloud;
-            frame.workload =
-                make_frame_workload(loaded.scene.cloud, camera, request.tile_size, TileMode::Exact,
-                                    request.rules.options(loaded.scene.traits.antialiased));
-            print_warnings(near_plane_warnings(frame.workload));
-            frame.reference = make_reference(frame.workload).image;
-            measure_frame(request, frame, out, rows);
+        const Scene scene = loaded_scene(request.scenes[s]);
+        print_warnings(scene.notes);
+        for (const ViewRequest& view : in_all_sizes(request.scenes[s], request.resolutions)) {
+            const std::vector<Camera> cameras = cameras_of_frame(view, request.group, scene);
+            for (std::size_t number = 0; number < cameras.size(); ++number) {
+                Frame frame = frame_of(request, scene, cameras[number]);
+                frame.row.scene = labels[s];
+                name_view(view, request.group, number, frame.row);
+                measure_frame(request, frame, out, rows);
+            }
         }
     }
     return rows;

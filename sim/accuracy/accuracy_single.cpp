@@ -12,6 +12,7 @@
 #include "sim/text/warnings.hpp"
 #include "sim/view/frame_warnings.hpp"
 #include "sim/view/view.hpp"
+#include "sim/view/view_group.hpp"
 #include "splat/frame/frame_workload.hpp"
 
 namespace degs::sim {
@@ -74,30 +75,38 @@ void measure_kind(const SingleGaussianRequest& request, const std::vector<Quanti
     }
 }
 
-/// Splats of a view, each seen through the tile that has its mean.
-void measure_view_splats(const SingleGaussianRequest& request,
-                         const std::vector<QuantizedRow>& paths, const ViewRequest& view,
-                         const std::string& label, std::vector<AccuracyRow>& rows) {
-    const View loaded = load_view(view);
-    const Camera& camera = loaded.camera;
+/// Splats that a camera sees, each through the tile that has its mean. `kind` says which camera.
+void measure_splats(const SingleGaussianRequest& request, const std::vector<QuantizedRow>& paths,
+                    const Scene& scene, const Camera& camera, AccuracyRow kind,
+                    std::vector<AccuracyRow>& rows) {
     const ProjectionOptions options = request.rules.options(false);
     const FrameWorkload workload =
-        make_frame_workload(loaded.scene.cloud, camera, kAlphaWindow, TileMode::Exact, options);
+        make_frame_workload(scene.cloud, camera, kAlphaWindow, TileMode::Exact, options);
     print_warnings(near_plane_warnings(workload));
     const std::vector<ProjectedSplat>& splats = workload.splats;
     if (splats.empty()) {
-        throw InputError("Camera " + std::to_string(view.camera) + " of the scene '" + view.scene +
-                         "' sees no Gaussian.");
+        throw InputError("Camera " + std::to_string(kind.camera.value_or(0)) + " of the scene '" +
+                         scene.source + "' sees no Gaussian.");
     }
-    AccuracyRow kind;
-    kind.scene = label;
-    kind.camera = view.camera;
     kind.resolution = std::to_string(camera.width) + "x" + std::to_string(camera.height);
     const auto sampler = [&](std::mt19937_64& random) {
         const ProjectedSplat& splat = splats[random() % splats.size()];
         return Sample{splat, window_of(splat, camera.window())};
     };
     measure_kind(request, paths, kind, sampler, rows);
+}
+
+void measure_view_splats(const SingleGaussianRequest& request,
+                         const std::vector<QuantizedRow>& paths, const ViewRequest& view,
+                         const std::string& label, std::vector<AccuracyRow>& rows) {
+    const View loaded = load_view(view);
+    const std::vector<Camera> cameras = cameras_of_frame(view, request.group, loaded.scene);
+    for (std::size_t number = 0; number < cameras.size(); ++number) {
+        AccuracyRow kind;
+        kind.scene = label;
+        name_view(view, request.group, number, kind);
+        measure_splats(request, paths, loaded.scene, cameras[number], kind, rows);
+    }
 }
 
 } // namespace

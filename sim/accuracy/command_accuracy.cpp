@@ -14,6 +14,7 @@
 #include "sim/accuracy/speed/speed.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/output_folder.hpp"
+#include "sim/shell/rule_options.hpp"
 #include "sim/shell/scene_list.hpp"
 #include "sim/shell/view_options.hpp"
 #include "sim/text/standard_output.hpp"
@@ -25,8 +26,8 @@ namespace {
 struct AccuracyOptions {
     std::vector<std::string> numbers{"fp16", "paper", "tuned"};
     std::vector<std::string> scenes; ///< as written
-    std::string camera_file;
-    int camera = 0;
+    ViewRequest view;                ///< of each scene
+    GroupRequest group;
     std::vector<std::string> resolutions;
     std::string span_ends;
     int tile_size = 32;
@@ -51,11 +52,8 @@ struct AccuracyOptions {
 std::vector<ViewRequest> views_of(const AccuracyOptions& options) {
     std::vector<ViewRequest> views;
     for (const std::string& scene : split_scenes(options.scenes)) {
-        ViewRequest view;
-        view.scene = scene;
-        view.camera_file = options.camera_file;
-        view.camera = options.camera;
-        views.push_back(view);
+        views.push_back(options.view);
+        views.back().scene = scene;
     }
     return views;
 }
@@ -68,7 +66,8 @@ SingleGaussianRequest single_request(const AccuracyOptions& options) {
     request.seed = options.seed;
     request.gaussians = options.splats;
     request.rules = options.rules;
-    const std::vector<std::string> own{""}; // the camera's size
+    request.group = options.group;
+    const std::vector<std::string> own{""}; // the view's size
     for (const ViewRequest& view : views_of(options)) {
         for (const std::string& resolution :
              options.resolutions.empty() ? own : options.resolutions) {
@@ -94,11 +93,12 @@ SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     for (const std::string& name : options.numbers) {
         numbers_of(name, options.span_ends); // reports a mistake before a scene loads
     }
-    for (const std::string& name : options.resolutions) {
-        resolution_height(name);
+    for (const std::string& size : options.resolutions) {
+        image_size(size);
     }
     request.sets = options.numbers;
     request.scenes = views_of(options);
+    request.group = options.group;
     for (const ViewRequest& view : request.scenes) {
         check_scene(view.scene);
     }
@@ -232,20 +232,17 @@ void add_scene_options(CLI::App& command, AccuracyOptions& options) {
         ->type_name("SCENE")
         ->take_all()
         ->expected(1);
-    add_camera_file_option(command, options.camera_file);
-    command
-        .add_option_function<std::string>(
-            "--camera,--cameras",
-            [&options](const std::string& text) { options.camera = one_camera(text); },
-            "position in the list of cameras, from 0")
-        ->type_name("POSITION");
+    add_camera_options(command, options.view);
+    add_size_options(command, options.view);
     command
         .add_option("--resolution", options.resolutions,
                     "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high; "
-                    "several separated by commas")
-        ->type_name("NAMES")
+                    "or WIDTHxHEIGHT, but for hard cases; several separated by commas")
+        ->type_name("SIZES")
         ->delimiter(',')
         ->take_all();
+    add_crop_option(command, options.view.crop);
+    add_group_options(command, options.group);
     command
         .add_option("--span-ends", options.span_ends,
                     "span ends of all number sets; without it each has its own")
@@ -255,8 +252,7 @@ void add_scene_options(CLI::App& command, AccuracyOptions& options) {
                     "px; outward span ends and the places where q_n starts depend on it")
         ->check(CLI::Range(1, 128))
         ->capture_default_str();
-    add_near_option(command, options.rules.near);
-    add_projection_options(command, options.rules);
+    add_rule_options(command, options.rules);
     command
         .add_option(
             "--products", options.products,

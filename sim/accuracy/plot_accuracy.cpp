@@ -37,8 +37,9 @@ Picture picture_of(const std::vector<AccuracyRow>& rows) {
         if (row.span_ends.empty()) {
             continue;
         }
-        const std::string heading =
-            row.scene + ", camera " + std::to_string(row.camera.value_or(0));
+        const std::string heading = row.scene + ", camera " +
+                                    std::to_string(row.camera.value_or(0)) +
+                                    (row.eye.empty() ? "" : ", " + row.eye + " eye");
         auto& panels = picture.panels;
         if (panels.empty() || panels.back().heading != heading) {
             panels.push_back({heading, {}});

@@ -90,9 +90,9 @@ AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
 AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
                          const std::vector<ChangedDesign>& changed) {
     analytic_model_of(config); // a mistake is found before the frame is made
-    const std::vector<FrameWorkload> frames = view.first_frame(config.accelerator());
-    AnalyticRun run = run_analytic(config, view.facts(), frames.front());
-    run.what_if = what_if(config, changed, frames.front(), view);
+    const std::vector<FramePointer> frames = view.first_frame(config.accelerator());
+    AnalyticRun run = run_analytic(config, view.facts(), *frames.front());
+    run.what_if = what_if(config, changed, *frames.front(), view);
     run.load_s = view.load_s();
     run.workload_s = view.workload_s();
     view.keep(frames, {});

@@ -39,16 +39,16 @@ std::vector<WhatIf> what_if(const RunConfig& config, const std::vector<ChangedDe
     }
     const SceneTraits traits = view.facts().traits;
     const FrameKind own = frame_kind(config.accelerator(), traits);
-    std::map<FrameKind, FrameWorkload> others;
+    std::map<FrameKind, FramePointer> others;
     const double before = estimated_cycles(config, frame);
     for (const ChangedDesign& design : changed) {
         const AcceleratorConfig& accelerator = design.config.accelerator();
         const FrameKind kind = frame_kind(accelerator, traits);
         if (kind != own && others.count(kind) == 0) {
-            others.emplace(kind, std::move(view.first_frame(accelerator).front()));
+            others.emplace(kind, view.first_frame(accelerator).front());
         }
         list.push_back({design.change, before,
-                        estimated_cycles(design.config, kind == own ? frame : others.at(kind))});
+                        estimated_cycles(design.config, kind == own ? frame : *others.at(kind))});
     }
     return list;
 }

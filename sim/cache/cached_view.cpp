@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/cache/cached_view.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <functional>
-#include <iterator>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -48,6 +46,19 @@ void on_own_thread(const std::function<void()>& work) {
     }
 }
 
+std::vector<FramePointer> pointers_to(std::vector<FrameWorkload> frames) {
+    std::vector<FramePointer> pointers;
+    for (FrameWorkload& frame : frames) {
+        pointers.push_back(std::make_shared<FrameWorkload>(std::move(frame)));
+    }
+    return pointers;
+}
+
+template <class Value>
+std::uint64_t bytes_of(const std::vector<Value>& values) {
+    return std::uint64_t{values.size()} * sizeof(Value);
+}
+
 /// Options of the projection that the reference of a frame is drawn from.
 ProjectionOptions reference_options(const FrameWorkload& frame) {
     ProjectionOptions options = frame.projection;
@@ -69,7 +80,7 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
         dynamic_ = path.frames > 1 ? std::move(dynamic) : nullptr;
     }
     key_ = cache_.scene_key(request_.scene, request_.camera_file);
-    watch_.require_unchanged();
+    watch_->require_unchanged();
     if (std::optional<SceneCard> card = cache_.scene(key_)) {
         facts_ = card->facts;
         facts_.name = scene_name(request_.scene);
@@ -164,8 +175,8 @@ const GaussianCloud& CachedView::cloud() {
     return scene_.cloud;
 }
 
-std::vector<FrameWorkload> CachedView::kept_frame(const AcceleratorConfig& config,
-                                                  std::size_t frame) {
+std::vector<FramePointer> CachedView::kept_frame(const AcceleratorConfig& config,
+                                                 std::size_t frame) {
     std::vector<FrameWorkload> views;
     const ProjectionOptions options = projection_of(config.data_path(), facts_.traits.antialiased);
     for (std::size_t k = frame * views_; k < (frame + 1) * views_; ++k) {
@@ -178,50 +189,49 @@ std::vector<FrameWorkload> CachedView::kept_frame(const AcceleratorConfig& confi
         views.push_back(std::move(*kept));
         workload_s_ += clock.seconds();
     }
-    return views;
+    return pointers_to(std::move(views));
 }
 
-std::vector<FrameWorkload> CachedView::made_frame(const AcceleratorConfig& config,
-                                                  std::size_t frame) {
+std::vector<FramePointer> CachedView::made_frame(const AcceleratorConfig& config,
+                                                 std::size_t frame) {
     const auto first = cameras_.begin() + static_cast<std::ptrdiff_t>(frame) * views_;
     const std::vector<Camera> cameras(first, first + views_);
     double seconds = 0;
-    std::vector<FrameWorkload> views =
-        dynamic_ ? make_workloads(dynamic_->frame(static_cast<int>(frame)), facts_.traits, cameras,
-                                  config, seconds)
-                 : make_workloads(cloud(), facts_.traits, cameras, config, seconds);
+    std::vector<FramePointer> views =
+        pointers_to(dynamic_ ? make_workloads(dynamic_->frame(static_cast<int>(frame)),
+                                              facts_.traits, cameras, config, seconds)
+                             : make_workloads(cloud(), facts_.traits, cameras, config, seconds));
     made_s_ += seconds;
     workload_s_ += seconds;
     return views;
 }
 
-std::vector<FrameWorkload> CachedView::first_frame(const AcceleratorConfig& config) {
+std::vector<FramePointer> CachedView::first_frame(const AcceleratorConfig& config) {
+    first_made_ = false;
+    if (const auto held = held_.find(frame_kind(config, facts_.traits)); held != held_.end()) {
+        return held->second;
+    }
     if (workload_) {
-        return {packed_frame(config.name,
-                             projection_of(config.data_path(), facts_.traits.antialiased),
-                             config.tile_size_px(), config.tile_mode())};
+        return {std::make_shared<FrameWorkload>(
+            packed_frame(config.name, projection_of(config.data_path(), facts_.traits.antialiased),
+                         config.tile_size_px(), config.tile_mode()))};
     }
     if (dynamic_) {
         require_frames(*dynamic_, static_cast<int>(cameras_.size()) / views_);
     }
     made_s_ = 0;
-    std::vector<FrameWorkload> views = kept_frame(config, 0);
+    std::vector<FramePointer> views = kept_frame(config, 0);
     first_made_ = views.empty();
     return first_made_ ? made_frame(config, 0) : views;
 }
 
 std::vector<FramePointer> CachedView::later_frame(const AcceleratorConfig& config,
                                                   std::size_t frame) {
-    std::vector<FrameWorkload> views = kept_frame(config, frame);
-    const bool made = views.empty();
-    if (made) {
+    std::vector<FramePointer> views = kept_frame(config, frame);
+    if (views.empty()) {
         views = made_frame(config, frame);
-    }
-    std::vector<FramePointer> pointers;
-    for (FrameWorkload& view : views) {
-        pointers.push_back(std::make_shared<FrameWorkload>(std::move(view)));
-        if (made) {
-            unkept_.emplace_back(frame * views_ + pointers.size() - 1, pointers.back());
+        for (std::size_t v = 0; v < views.size(); ++v) {
+            unkept_.emplace_back(frame * views_ + v, views[v]);
         }
     }
     if (made_s_ > kWorthKeeping) {
@@ -229,7 +239,33 @@ std::vector<FramePointer> CachedView::later_frame(const AcceleratorConfig& confi
             cache_.keep(frame_key(k), *view);
         }
     }
-    return pointers;
+    return views;
+}
+
+void CachedView::hold_first_frame(const AcceleratorConfig& config) {
+    held_[frame_kind(config, facts_.traits)] = first_frame(config);
+    forget_cloud();
+}
+
+bool CachedView::holds_first_frame(const AcceleratorConfig& config) const {
+    return held_.count(frame_kind(config, facts_.traits)) != 0;
+}
+
+std::uint64_t CachedView::held_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& [kind, views] : held_) {
+        for (const FramePointer& frame : views) {
+            bytes += bytes_of(frame->splats) + bytes_of(frame->tile_begin) +
+                     bytes_of(frame->tile_splats) + bytes_of(frame->tiles_touched) +
+                     bytes_of(frame->visible_of) + bytes_of(frame->visible_means);
+        }
+    }
+    return bytes;
+}
+
+void CachedView::go_on() {
+    watch_.emplace();
+    load_s_ = workload_s_ = 0;
 }
 
 void CachedView::share_colours(std::vector<FramePointer>& views, std::size_t frame) {
@@ -249,14 +285,9 @@ void CachedView::share_colours(std::vector<FramePointer>& views, std::size_t fra
 }
 
 FrameSource CachedView::frames(const AcceleratorConfig& config,
-                               const std::vector<FrameWorkload>& first) {
+                               const std::vector<FramePointer>& first) {
     const auto take = [this, &config, &first](std::size_t frame) {
-        std::vector<FramePointer> views;
-        if (frame == 0) {
-            std::transform(first.begin(), first.end(), std::back_inserter(views), borrowed);
-        } else {
-            views = later_frame(config, frame);
-        }
+        std::vector<FramePointer> views = frame == 0 ? first : later_frame(config, frame);
         if (views_ > 1 && config.view_sharing() == ViewSharing::Colour) {
             share_colours(views, frame);
         }
@@ -324,14 +355,14 @@ bool CachedView::references_need_cloud(const FrameWorkload& frame) const {
     return !scene_.cloud.empty() && (foveated_ || !frame.projection.numbers.is_reference());
 }
 
-References CachedView::references(const std::vector<FrameWorkload>& first) {
+References CachedView::references(const std::vector<FramePointer>& first) {
     References references;
-    for (const FrameWorkload& view : first) {
-        references.views.push_back(reference(view));
+    for (const FramePointer& view : first) {
+        references.views.push_back(reference(*view));
     }
     if (foveated_) {
         for (const FoveatedView& image : foveated_->images) {
-            references.full.push_back(full_reference(image.camera, first.front()));
+            references.full.push_back(full_reference(image.camera, *first.front()));
         }
     }
     return references;
@@ -341,13 +372,13 @@ void CachedView::forget_cloud() {
     scene_.cloud = GaussianCloud{};
 }
 
-void CachedView::keep(const std::vector<FrameWorkload>& first,
+void CachedView::keep(const std::vector<FramePointer>& first,
                       const std::vector<Reference>& references) {
     for (std::size_t k = 0; first_made_ && made_s_ > kWorthKeeping && k < first.size(); ++k) {
-        cache_.keep(frame_key(k), first[k]);
+        cache_.keep(frame_key(k), *first[k]);
     }
     for (std::size_t k = 0; reference_made_ && k < references.size(); ++k) {
-        cache_.keep(frame_key(k), first[k], references[k]);
+        cache_.keep(frame_key(k), *first[k], references[k]);
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include "sim/cache/frame_cache.hpp"
 #include "sim/view/foveated_view.hpp"
 #include "sim/view/frame_facts.hpp"
+#include "sim/view/frame_kind.hpp"
 #include "sim/view/reference.hpp"
 #include "sim/view/view.hpp"
 #include "sim/view/workloads.hpp"
@@ -37,23 +40,34 @@ public:
     /// image by image.
     const std::optional<FoveatedViews>& foveated() const { return foveated_; }
     /// The views of the first frame with the tiles of the accelerator, projected in its numbers.
-    std::vector<FrameWorkload> first_frame(const AcceleratorConfig& config);
+    std::vector<FramePointer> first_frame(const AcceleratorConfig& config);
     /// All frames of the path, of which the first is there. The others are found, or made and kept
     /// if that takes some time, when they are taken; the Gaussians are freed when the last one is.
     /// Views have the colours from the middle of their frame if the accelerator shares them. This,
     /// `config` and `first` outlive the source.
-    FrameSource frames(const AcceleratorConfig& config, const std::vector<FrameWorkload>& first);
+    FrameSource frames(const AcceleratorConfig& config, const std::vector<FramePointer>& first);
     /// Throws InputError if the view is a workload file without the reference of such a frame.
     void require_reference(const FrameWorkload& frame) const;
     /// Whether references of the first frame are made from Gaussians, which frames() frees.
     bool references_need_cloud(const FrameWorkload& frame) const;
     /// The references of the first frame, found or made.
-    References references(const std::vector<FrameWorkload>& first);
+    References references(const std::vector<FramePointer>& first);
     /// Frees the Gaussians; they are loaded again if they are needed after all.
     void forget_cloud();
     /// Keeps what was made and took some time: the first frame, and its references, as they were
     /// returned.
-    void keep(const std::vector<FrameWorkload>& first, const std::vector<Reference>& references);
+    void keep(const std::vector<FramePointer>& first, const std::vector<Reference>& references);
+
+    /// Has the first frame for the accelerator in memory from now on, for this process and its
+    /// forks, and frees the Gaussians.
+    void hold_first_frame(const AcceleratorConfig& config);
+    bool holds_first_frame(const AcceleratorConfig& config) const;
+    /// Bytes of the frames that are held.
+    std::uint64_t held_bytes() const;
+    /// Between two uses of a view that is held, its files may change: whoever goes on has found
+    /// that they have not.
+    void pause() { watch_.reset(); }
+    void go_on();
 
     double load_s() const { return load_s_; }         ///< host
     double workload_s() const { return workload_s_; } ///< host, projections
@@ -74,12 +88,12 @@ private:
     /// The key in the cache of the scene as view `k` of all shows it.
     std::string frame_key(std::size_t k) const;
     /// The views of a frame, if all of them are in the cache; else empty.
-    std::vector<FrameWorkload> kept_frame(const AcceleratorConfig& config, std::size_t frame);
-    std::vector<FrameWorkload> made_frame(const AcceleratorConfig& config, std::size_t frame);
+    std::vector<FramePointer> kept_frame(const AcceleratorConfig& config, std::size_t frame);
+    std::vector<FramePointer> made_frame(const AcceleratorConfig& config, std::size_t frame);
     std::vector<FramePointer> later_frame(const AcceleratorConfig& config, std::size_t frame);
     void share_colours(std::vector<FramePointer>& views, std::size_t frame);
 
-    InputWatch watch_; ///< from the key of the scene on
+    std::optional<InputWatch> watch_{std::in_place}; ///< from the key of the scene on
     ViewRequest request_;
     FrameCache cache_;
     std::string key_;                       ///< of the scene
@@ -90,6 +104,7 @@ private:
     std::vector<Camera> cameras_;
     std::optional<FoveatedViews> foveated_;
     int views_ = 1;
+    std::map<FrameKind, std::vector<FramePointer>> held_; ///< first frames
     double load_s_ = 0, workload_s_ = 0;
     double made_s_ = 0; ///< host, of frames that were not in the cache
     std::vector<std::pair<std::size_t, FramePointer>>

@@ -8,6 +8,7 @@
 #include <new>
 #include <vector>
 
+#include <sys/stat.h>
 #include <xxhash.h>
 
 #include "config/input_files.hpp"
@@ -19,7 +20,7 @@
 
 namespace degs::sim {
 
-Digest::Digest() : state_(XXH3_createState()) {
+Digest::Digest(Files files) : state_(XXH3_createState()), files_(files) {
     if (state_ == nullptr) {
         throw std::bad_alloc();
     }
@@ -40,23 +41,46 @@ void Digest::add_bytes(const std::string& bytes) {
     XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
 }
 
-void Digest::add_file(const std::string& name) {
+void Digest::add_content(const std::string& name) {
     constexpr std::size_t kBlock = 1U << 20;
     std::uint64_t size = 0;
-    std::error_code error;
-    if (std::filesystem::is_regular_file(name, error)) { // others may block, or never end
-        remember_input(name);
-        watch_input(name);
-        std::ifstream file(name, std::ios::binary);
-        std::vector<char> block(kBlock);
-        while (file) {
-            file.read(block.data(), static_cast<std::streamsize>(kBlock));
-            const auto got = static_cast<std::size_t>(file.gcount());
-            XXH3_128bits_update(state_.get(), block.data(), got);
-            size += got;
-        }
+    std::ifstream file(name, std::ios::binary);
+    std::vector<char> block(kBlock);
+    while (file) {
+        file.read(block.data(), static_cast<std::streamsize>(kBlock));
+        const auto got = static_cast<std::size_t>(file.gcount());
+        XXH3_128bits_update(state_.get(), block.data(), got);
+        size += got;
     }
     XXH3_128bits_update(state_.get(), &size, sizeof size);
+}
+
+void Digest::add_stamp(const std::string& name) {
+    struct stat status {};
+    if (::stat(name.c_str(), &status) == 0) {
+        for (const std::string& part :
+             {std::to_string(status.st_dev), std::to_string(status.st_ino),
+              std::to_string(status.st_size), std::to_string(status.st_mtim.tv_sec),
+              std::to_string(status.st_mtim.tv_nsec)}) {
+            add(part);
+        }
+    }
+}
+
+void Digest::add_file(const std::string& name) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(name, error)) { // others may block, or never end
+        const std::uint64_t size = 0;
+        XXH3_128bits_update(state_.get(), &size, sizeof size);
+        return;
+    }
+    remember_input(name);
+    watch_input(name);
+    if (files_ == Files::Stamps) {
+        add_stamp(name);
+    } else {
+        add_content(name);
+    }
 }
 
 void Digest::add_scene(const std::string& name) {

@@ -80,6 +80,13 @@ constexpr Row kRows[] = {
     {"accuracy", "", kNeeds, "--scene --single-gaussian --hard-cases --speed",
      "measures what its options name"},
     {"accuracy", "--only", kNeeds, "--hard-cases", "names hard cases"},
+    {"accuracy",
+     "--camera --camera-file --width --height --crop --eyes --views --rules --order "
+     "--antialiasing --projection --lens --low-pass --cut --near",
+     kNotWith, "--hard-cases", "is of a view, and each hard case has its own"},
+    {"accuracy", "--rules --order --antialiasing --projection --lens --low-pass --cut --near",
+     kNotWith, "--speed", "is a rule, and configurations have rules of their own"},
+    {"accuracy", "--eyes --views", kNotWith, "--speed", "gives a frame more than one view"},
     {"accuracy", "--fidelities --seeds --set --memory", kNeeds, "--speed",
      "is for runs of configurations"},
     // Scenes.

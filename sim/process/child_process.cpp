@@ -149,10 +149,7 @@ ChildOutcome ChildPool::Child::outcome() {
     }
     pid_ = -1;
     if (WIFSIGNALED(status)) {
-        const int signal = WTERMSIG(status);
-        return failed("The process was ended by signal " + std::to_string(signal) + " (" +
-                      ::strsignal(signal) + ")" +
-                      (signal == SIGKILL ? "; the machine may have run out of memory." : "."));
+        return failed(ending_sentence(WTERMSIG(status)));
     }
     if (message_.empty() || WEXITSTATUS(status) != kSuccess) {
         return failed("The process ended without a result and with exit code " +

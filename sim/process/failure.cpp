@@ -2,6 +2,8 @@
 #include "sim/process/failure.hpp"
 
 #include <algorithm>
+#include <csignal>
+#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -48,6 +50,12 @@ Failure failure_of(const std::exception_ptr& error) {
     } catch (...) {
         return {kInternalError, "Internal error of unknown kind."};
     }
+}
+
+std::string ending_sentence(int signal) {
+    return "The process was ended by signal " + std::to_string(signal) + " (" +
+           ::strsignal(signal) + ")" +
+           (signal == SIGKILL ? "; the machine may have run out of memory." : ".");
 }
 
 std::optional<Failure> worst_of(const std::vector<Failure>& failures, const std::string& what) {

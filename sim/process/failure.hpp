@@ -35,6 +35,9 @@ private:
 /// memory.
 Failure failure_of(const std::exception_ptr& error);
 
+/// How a process ended that this signal ended.
+std::string ending_sentence(int signal);
+
 /// One of several failures, which says how many of `what` ("points") failed: the first of the model
 /// or the machine, if there is one. None if there are none.
 std::optional<Failure> worst_of(const std::vector<Failure>& failures, const std::string& what);

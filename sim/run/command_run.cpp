@@ -10,6 +10,7 @@
 #include "sim/report/what_if_words.hpp"
 #include "sim/run/run_outputs.hpp"
 #include "sim/run/run_simulation.hpp"
+#include "sim/run/run_view.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/warnings.hpp"
@@ -29,7 +30,8 @@ void estimate(const RunPlan& plan, CachedView& view, const RunFiles& files) {
 void run(const RunOptions& options) {
     const Stopwatch since_start;
     RunPlan plan = plan_of(options);
-    CachedView view(plan.view, plan.path, plan.cached ? FrameCache::of_user() : FrameCache());
+    const std::shared_ptr<CachedView> seen = view_of(plan);
+    CachedView& view = *seen;
     if (plan.analytic) {
         return estimate(plan, view, options.files);
     }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/run/run_options.hpp"
 
-#include <CLI/App.hpp>
+#include <utility>
 
+#include <CLI/CLI.hpp>
+
+#include "degs/error.hpp"
+#include "sim/command_line/decimal_numbers.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
 
@@ -48,6 +52,23 @@ void add_run_options(CLI::App& command, RunOptions& options) {
                     "by slot class, as pictures, over the image, and as layers of tiles.exr")
         ->type_name("FOLDER");
     command.add_flag("--explain", options.explain, "print what the model left out, and why");
+}
+
+std::optional<RunOptions> run_options_of(const std::vector<std::string>& arguments) {
+    RunOptions options;
+    CLI::App program;
+    CLI::App* command = program.add_subcommand("run");
+    add_run_options(*command, options);
+    require_decimal_numbers(program);
+    std::vector<std::string> last_first(arguments.rbegin(), arguments.rend());
+    try {
+        program.parse(std::move(last_first));
+    } catch (const CLI::Error&) {
+        return {};
+    } catch (const InputError&) {
+        return {};
+    }
+    return command->parsed() ? std::optional(std::move(options)) : std::nullopt;
 }
 
 } // namespace degs::sim

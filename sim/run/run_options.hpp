@@ -42,5 +42,8 @@ struct RunOptions {
 };
 
 void add_run_options(CLI::App& command, RunOptions& options);
+/// The options of the command line "run ..." without the name of the program; nothing if it is no
+/// line of `degs run`, or one with a mistake.
+std::optional<RunOptions> run_options_of(const std::vector<std::string>& arguments);
 
 } // namespace degs::sim

@@ -13,19 +13,19 @@ RunResult simulate(const RunPlan& plan, CachedView& view, const Stopwatch& since
     const RunRequest& request = plan.request;
     const AcceleratorConfig& design = request.config.accelerator();
     const bool judged = request.reference && !request.sampling;
-    const std::vector<FrameWorkload> first = view.first_frame(design);
+    const std::vector<FramePointer> first = view.first_frame(design);
     if (judged) {
-        view.require_reference(first.front());
+        view.require_reference(*first.front());
     }
-    std::vector<WhatIf> worth = what_if(request.config, plan.changed, first.front(), view);
+    std::vector<WhatIf> worth = what_if(request.config, plan.changed, *first.front(), view);
     References references;
-    if (judged && view.references_need_cloud(first.front())) {
+    if (judged && view.references_need_cloud(*first.front())) {
         references = view.references(first);
     }
     RunResult result = run_frames(request, view.frames(design, first));
     put_scene(view.facts(), result);
     result.what_if = std::move(worth);
-    result.gains = gains(result, first.front(), view);
+    result.gains = gains(result, *first.front(), view);
     if (view.foveated()) {
         put_foveation(*view.foveated(), result);
     }

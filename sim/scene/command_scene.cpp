@@ -17,6 +17,7 @@
 #include "sim/scene/scene_output.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/output_folder.hpp"
+#include "sim/shell/rule_options.hpp"
 #include "sim/shell/view_options.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/standard_output.hpp"

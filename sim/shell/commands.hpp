@@ -2,6 +2,7 @@
 // Each function adds one command to the program; the command runs when its arguments are parsed.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ void add_soc_command(CLI::App& program);
 void add_config_command(CLI::App& program);
 void add_accuracy_command(CLI::App& program);
 void add_registers_command(CLI::App& program);
+/// The program, whose commands and options are there and whose arguments have not come.
+using PreparedProgram = std::function<int(int argc, char* argv[])>;
+/// The forks of the server run what `prepare` makes once.
+void add_serve_command(CLI::App& program, const std::function<PreparedProgram()>& prepare);
 /// Describes what the other functions have added.
 void add_help_command(CLI::App& program);
 

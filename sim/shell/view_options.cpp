@@ -54,38 +54,6 @@ void add_memory_option(CLI::App& command, std::string& file) {
         ->type_name("FILE");
 }
 
-CLI::Option* add_near_option(CLI::App& command, double& near) {
-    return command
-        .add_option("--near", near,
-                    "near plane, scene units; Gaussians at or before it are not drawn")
-        ->check(CLI::Range(0.0, kFarthestNearPlane))
-        ->capture_default_str();
-}
-
-void add_projection_options(CLI::App& command, RenderingRules& rules) {
-    command
-        .add_option_function<std::string>(
-            "--projection",
-            [&rules](const std::string& name) {
-                rules.projection = name == name_of(ProjectionRule::Unscented)
-                                       ? ProjectionRule::Unscented
-                                       : ProjectionRule::Linear;
-            },
-            "linear: by the Jacobian of a pinhole; unscented: by seven points through the lens")
-        ->check(CLI::IsMember(projection_rule_names()))
-        ->default_str(name_of(rules.projection));
-    command
-        .add_option_function<std::string>(
-            "--lens",
-            [&rules](const std::string& name) {
-                rules.lens =
-                    name == name_of(LensRule::Pinhole) ? LensRule::Pinhole : LensRule::Camera;
-            },
-            "camera: as its file says; pinhole: lens distortion is left out")
-        ->check(CLI::IsMember(lens_rule_names()))
-        ->default_str(name_of(rules.lens));
-}
-
 CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning) {
     return command.add_option("--out", folder, meaning)->type_name("FOLDER")->capture_default_str();
 }
@@ -96,12 +64,7 @@ void add_jobs_option(CLI::App& command, int& jobs) {
         ->capture_default_str();
 }
 
-void add_view_options(CLI::App& command, ViewRequest& request) {
-    command
-        .add_option("--scene", request.scene,
-                    "scene file, or synthetic:NAME[,gaussians=N][,seed=N]")
-        ->type_name("SCENE")
-        ->required();
+void add_camera_options(CLI::App& command, ViewRequest& request) {
     add_camera_file_option(command, request.camera_file);
     command
         .add_option_function<std::string>(
@@ -109,10 +72,23 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
             [&request](const std::string& text) { request.camera = one_camera(text); },
             "position in the scene's list of cameras, from 0")
         ->type_name("POSITION");
+}
+
+void add_size_options(CLI::App& command, ViewRequest& request) {
     command.add_option("--width", request.width, "image width in pixels; the view is scaled");
     command.add_option("--height", request.height,
                        "image height in pixels; alone it scales the view, with --width it crops or "
                        "extends it");
+}
+
+void add_view_options(CLI::App& command, ViewRequest& request) {
+    command
+        .add_option("--scene", request.scene,
+                    "scene file, or synthetic:NAME[,gaussians=N][,seed=N]")
+        ->type_name("SCENE")
+        ->required();
+    add_camera_options(command, request);
+    add_size_options(command, request);
     add_resolution_option(command, request.resolution);
     add_crop_option(command, request.crop);
 }

@@ -10,14 +10,19 @@
 #include <CLI/App.hpp>
 
 #include "sim/view/view.hpp"
-#include "splat/frame/rendering_rules.hpp"
 
 namespace degs::sim {
 
 /// Adds --scene, --camera-file, --camera and the options for the image size and a part of it.
 void add_view_options(CLI::App& command, ViewRequest& request);
 
-/// Adds the same options and --workload, a file that takes the place of all of them.
+/// Adds --camera-file and --camera.
+void add_camera_options(CLI::App& command, ViewRequest& request);
+
+/// Adds --width and --height.
+void add_size_options(CLI::App& command, ViewRequest& request);
+
+/// Adds all options of a view and --workload, a file that takes the place of all of them.
 void add_view_or_workload_options(CLI::App& command, ViewRequest& request);
 
 /// Adds --resolution.
@@ -37,12 +42,6 @@ void add_memory_option(CLI::App& command, std::string& file);
 
 /// Adds --crop, a part of the images.
 CLI::Option* add_crop_option(CLI::App& command, std::string& crop);
-
-/// Adds --near, the near plane of commands without a configuration.
-CLI::Option* add_near_option(CLI::App& command, double& near);
-
-/// Adds --projection and --lens, of commands without a configuration.
-void add_projection_options(CLI::App& command, RenderingRules& rules);
 
 /// Adds --out, the folder for results.
 CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning);

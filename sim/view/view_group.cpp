@@ -40,4 +40,18 @@ std::vector<Camera> cameras_of_frames(const PathRequest& path, const PathSource&
     return all;
 }
 
+std::vector<Camera> cameras_of_frame(const ViewRequest& request, const GroupRequest& group,
+                                     const Scene& scene) {
+    PathRequest path;
+    path.group = group;
+    PathSource source;
+    source.camera = request.camera;
+    source.camera_at = [&request, &scene](int position) {
+        ViewRequest view = request;
+        view.camera = position;
+        return camera_of(view, scene);
+    };
+    return cameras_of_frames(path, source);
+}
+
 } // namespace degs::sim

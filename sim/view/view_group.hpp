@@ -21,4 +21,9 @@ struct PathSource {
 /// for a position that does not exist.
 std::vector<Camera> cameras_of_frames(const PathRequest& path, const PathSource& source);
 
+/// The cameras of the views of one frame of the scene, in the size of the request. Throws
+/// InputError likewise.
+std::vector<Camera> cameras_of_frame(const ViewRequest& request, const GroupRequest& group,
+                                     const Scene& scene);
+
 } // namespace degs::sim

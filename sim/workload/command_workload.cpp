@@ -63,10 +63,10 @@ void run_export(const ExportOptions& options) {
     CachedView view(options.view, PathRequest(),
                     options.no_cache ? FrameCache() : FrameCache::of_user());
     const OutputFolder out(options.out, workload_files());
-    const std::vector<FrameWorkload> frames = view.first_frame(design);
+    const std::vector<FramePointer> frames = view.first_frame(design);
     view.keep(frames, {});
     view.forget_cloud();
-    const FrameWorkload& frame = frames.front();
+    const FrameWorkload& frame = *frames.front();
     ExportedWorkload work;
     out.replace([&] {
         const Progress progress("writing the workload");

@@ -67,6 +67,7 @@ void spare_inputs() {
     Inputs& known = inputs();
     const std::lock_guard<std::mutex> lock(known.mutex);
     known.spared = true;
+    known.names.clear(); // a fork of a server is a new command
 }
 
 void remember_input(const std::string& path) {

@@ -111,7 +111,7 @@ private:
     /// The run that the others are measured against is the first one.
     void begin_accelerator(const SpeedDesign& design) {
         accelerator_ = design.accelerator;
-        print_warnings(near_plane_warnings(frames_.front()));
+        print_warnings(near_plane_warnings(*frames_.front()));
         const Reference reference = view_.references(frames_).views.front();
         render_s_ = reference.render_s;
         fragments_ = reference.counts.fragments;
@@ -124,8 +124,8 @@ private:
         SpeedView facts;
         facts.scene = view_.facts().name;
         facts.camera = request_.view.camera;
-        facts.width = frames_.front().camera.width;
-        facts.height = frames_.front().camera.height;
+        facts.width = frames_.front()->camera.width;
+        facts.height = frames_.front()->camera.height;
         facts.fragments = fragments_;
         return facts;
     }
@@ -148,7 +148,7 @@ private:
         const std::unique_ptr<AnalyticModel> model = analytic_model_of(design.config);
         const CpuStopwatch clock;
         const AnalyticFrame frame =
-            estimate_frame(*model, frames_.front(), design.config.accelerator().tile_order);
+            estimate_frame(*model, *frames_.front(), design.config.accelerator().tile_order);
         SpeedOutcome outcome;
         outcome.run_s = clock.seconds();
         outcome.cycles = frame.cycles;
@@ -170,7 +170,7 @@ private:
         {
             const Progress progress(name);
             run_children(
-                {{name, [&] { return run_in_child(request, frames_.front(), truth_.image); }}}, 1,
+                {{name, [&] { return run_in_child(request, *frames_.front(), truth_.image); }}}, 1,
                 {[&ended](std::size_t, ChildOutcome&& outcome) { ended = std::move(outcome); },
                  {}});
         }
@@ -214,8 +214,8 @@ private:
 
     const SpeedRequest& request_;
     CachedView view_;
-    std::vector<FrameWorkload> frames_; ///< of the present design
-    std::string accelerator_;           ///< the present one
+    std::vector<FramePointer> frames_; ///< of the present design
+    std::string accelerator_;          ///< the present one
     double render_s_ = 0;
     std::uint64_t fragments_ = 0;
     SpeedOutcome truth_; ///< with its image

@@ -75,6 +75,10 @@ private:
         RingDates rows, units;
         double taken = 0; ///< the row before
     };
+    /// Where a row of a tile goes: the lane, the bank, and the first of its domains there.
+    struct RowPlace {
+        std::size_t lane = 0, bank = 0, domain = 0;
+    };
     bool has_live_segment(const CoarseTile& tile, const CoarseSpan& span) const;
     double choose_rows(const CoarseTile& tile);
     void begin_lanes(double row_weight);
@@ -91,10 +95,11 @@ private:
     const DegsConfig& config_;
     std::vector<Bank> banks_;
     std::vector<Lane> lanes_;
+    std::vector<RowPlace> places_; ///< by row
+    std::vector<int> segment_of_;  ///< by column
     std::vector<double> finished_; ///< when the tiles that hold the contexts are over, by turn
     std::size_t tiles_ = 0;
     std::vector<CoarseSpan> sent_; ///< rows of a splat; empty ones, too
-    std::size_t segments_per_row_;
     AnalyticSlicing slicing_;
     MemoryDates memory_;
     std::vector<FetcherDates> fetchers_;  ///< tiles take them in turn
@@ -142,9 +147,8 @@ double DegsAnalytic::latency() const {
 }
 
 DegsClock::DegsClock(const DegsAnalytic& model, const FrameWorkload& frame)
-    : model_(model), config_(model.config()), finished_(config_.contexts(), 0),
-      segments_per_row_((frame.tile_size + config_.scheduler.segment_length - 1) /
-                        config_.scheduler.segment_length),
+    : model_(model), config_(model.config()), places_(frame.tile_size),
+      segment_of_(frame.tile_size), finished_(config_.contexts(), 0),
       slicing_(config_.slicing.units_per_module(), config_.slicing.splats_per_cycle,
                frame.tile_size),
       memory_(model.front().memory.bytes_per_cycle, model.front().memory.latency),
@@ -157,6 +161,9 @@ DegsClock::DegsClock(const DegsAnalytic& model, const FrameWorkload& frame)
                                                   config_.scheduler.banks),
                       config_.scheduler.reuse_cycles, config_.scheduler.scan),
          RingDates(config_.crossbar_cells())});
+    for (int column = 0; column < frame.tile_size; ++column) {
+        segment_of_[column] = column / config_.scheduler.segment_length;
+    }
 }
 
 /// Span Units own every n-th row, or are a pool that takes the rows of one lane.
@@ -171,6 +178,11 @@ void DegsClock::begin_lanes(double row_weight) {
     const int rows = config_.span_buffer.bytes / config_.span_buffer.row_bytes / lanes;
     const int units = config_.span.count * config_.span.rows_per_cycle / lanes;
     lanes_.assign(lanes, {RingDates(rows / weight), RingDates(units / weight)});
+    const std::size_t segments_per_row = segment_of_.back() + 1;
+    for (std::size_t row = 0; row < places_.size(); ++row) {
+        places_[row] = {row % lanes_.size(), row % banks_.size(),
+                        row / banks_.size() * segments_per_row};
+    }
 }
 
 void DegsClock::begin(const CoarseTile& tile) {
@@ -188,13 +200,14 @@ void DegsClock::begin(const CoarseTile& tile) {
 
 // A unit takes the row when its bank has a place for the Span Vector; returns when it is solved.
 double DegsClock::solve_row(int row) {
-    Lane& lane = lanes_[row % lanes_.size()];
+    const RowPlace& goes = places_[row];
+    Lane& lane = lanes_[goes.lane];
     double entered = slicing_.send(row);
     if (entered < lane.rows.oldest()) { // a full lane stops all units
         entered = lane.rows.oldest();
         slicing_.stall(entered);
     }
-    const double place = banks_[row % banks_.size()].crossbar.oldest();
+    const double place = banks_[goes.bank].crossbar.oldest();
     lane.taken = std::max({lane.taken, entered, lane.units.oldest(), place});
     lane.rows.replace_oldest(lane.taken);
     lane.units.replace_oldest(lane.taken + config_.span.cycles_per_row);
@@ -221,9 +234,10 @@ double DegsClock::tasks_of(const CoarseTile& tile, const CoarseSpan& part) const
 
 void DegsClock::segment(const CoarseTile& tile, const CoarseSpan& span, double solved) {
     const int length = config_.scheduler.segment_length;
-    Bank& bank = banks_[span.row % banks_.size()];
+    const RowPlace& goes = places_[span.row];
+    Bank& bank = banks_[goes.bank];
     bank.crossbar.replace_oldest(std::max({solved, bank.cut, start_}));
-    for (int s = span.first / length; s <= span.last / length; ++s) {
+    for (int s = segment_of_[span.first]; s <= segment_of_[span.last]; ++s) {
         double at = queue_segment(bank, solved);
         if (!tile.cell_is_live(span.row, s * length)) {
             continue;
@@ -236,7 +250,7 @@ void DegsClock::segment(const CoarseTile& tile, const CoarseSpan& span, double s
         }
         const double taken =
             std::max(tasks / config_.array.pes_per_bank, 1.0 / config_.scheduler.issue_width);
-        at = bank.queue.add(at, taken, span.row / banks_.size() * segments_per_row_ + s);
+        at = bank.queue.add(at, taken, goes.domain + s);
         bank.cut = std::max(bank.cut, at);
         issues_ += taken;
         features_ += bank.splat == splats_ ? 0 : 1;
@@ -248,7 +262,7 @@ void DegsClock::segment(const CoarseTile& tile, const CoarseSpan& span, double s
 
 bool DegsClock::has_live_segment(const CoarseTile& tile, const CoarseSpan& span) const {
     const int length = config_.scheduler.segment_length;
-    for (int s = span.first / length; s <= span.last / length; ++s) {
+    for (int s = segment_of_[span.first]; s <= segment_of_[span.last]; ++s) {
         if (tile.cell_is_live(span.row, s * length)) {
             return true;
         }

@@ -6,20 +6,21 @@
 
 namespace degs {
 
-double AnalyticBank::start_of(const Domain& domain) const {
-    return std::max({free_, domain.free, domain.front().arrived});
+AnalyticBank::Candidate AnalyticBank::candidate_of(std::size_t domain) const {
+    const Domain& own = domains_[domain];
+    return {domain, std::max(own.free, own.front().arrived), own.front().number};
 }
 
 // Several domains may go at the same time: the lowest rank does.
-std::uint64_t AnalyticBank::rank_of(std::size_t domain) const {
+std::uint64_t AnalyticBank::rank_of(const Candidate& candidate) const {
+    const std::size_t domain = candidate.domain;
     const std::uint64_t younger =
         domain >= first_ && domain < first_ + domains_.size() / kTilesInFlight ? 1 : 0;
-    const Domain& own = domains_[domain];
-    std::uint64_t rank = own.front().number;
+    std::uint64_t rank = candidate.number;
     if (scan_ == DomainScan::RoundRobin) {
         rank = domain >= cursor_ ? domain - cursor_ : domain + domains_.size() - cursor_;
     } else if (scan_ == DomainScan::Deepest) {
-        rank = ~std::uint32_t{0} - own.size();
+        rank = ~std::uint32_t{0} - domains_[domain].size();
     }
     return younger << 63U | rank;
 }
@@ -32,7 +33,7 @@ double AnalyticBank::issue(double limit) {
     std::uint64_t least = 0;
     std::size_t chosen = occupied_.size();
     for (std::size_t i = 0; i < occupied_.size(); ++i) {
-        const double start = start_of(domains_[occupied_[i]]);
+        const double start = std::max(free_, occupied_[i].ready);
         if (start > earliest || start >= limit) {
             continue;
         }
@@ -46,8 +47,9 @@ double AnalyticBank::issue(double limit) {
     if (chosen == occupied_.size()) {
         return limit;
     }
-    cursor_ = occupied_[chosen] + 1;
-    Domain& domain = domains_[occupied_[chosen]];
+    Candidate& next = occupied_[chosen];
+    cursor_ = next.domain + 1;
+    Domain& domain = domains_[next.domain];
     const double taken = domain.front().taken;
     domain.pop();
     --size_;
@@ -57,8 +59,10 @@ double AnalyticBank::issue(double limit) {
     // The last task executes in the packet that ends behind it.
     domain.free = std::ceil(free_) - 1 + reuse_cycles_;
     if (domain.empty()) {
-        occupied_[chosen] = occupied_.back();
+        next = occupied_.back();
         occupied_.pop_back();
+    } else {
+        next = candidate_of(next.domain);
     }
     return earliest;
 }
@@ -71,10 +75,11 @@ double AnalyticBank::add(double date, double taken, std::size_t domain) {
     }
     domain += first_;
     Domain& own = domains_[domain];
-    if (own.empty()) {
-        occupied_.push_back(domain);
-    }
+    const bool first = own.empty();
     own.segments.push_back({std::ceil(date), taken, number_++});
+    if (first) {
+        occupied_.push_back(candidate_of(domain));
+    }
     ++size_;
     waiting_cycles_ += taken;
     return date;

@@ -49,9 +49,17 @@ private:
         }
     };
 
+    /// A domain with segments, and what its first one waits for. They lie beside each other,
+    /// because every issue looks at all of them.
+    struct Candidate {
+        std::size_t domain;
+        double ready;         ///< the segment is there, and the domain may be updated
+        std::uint64_t number; ///< of the segment
+    };
+
     static constexpr std::size_t kTilesInFlight = 2;
-    double start_of(const Domain& domain) const;
-    std::uint64_t rank_of(std::size_t domain) const;
+    Candidate candidate_of(std::size_t domain) const;
+    std::uint64_t rank_of(const Candidate& candidate) const;
     static constexpr double kLast = std::numeric_limits<double>::infinity();
     /// Issues the next segment if that is possible before `limit`. Returns the date, or `limit`.
     double issue(double limit);
@@ -62,11 +70,11 @@ private:
     std::size_t first_ = 0;  ///< domain of the tile that began last
     std::size_t cursor_ = 0; ///< behind the domain that was issued last
     std::vector<Domain> domains_;
-    std::vector<std::size_t> occupied_; ///< domains with segments
-    std::size_t size_ = 0;              ///< segments that wait
-    std::uint64_t number_ = 0;          ///< of the next segment
-    double free_ = 0;                   ///< when the PEs have had the tasks issued so far
-    double waiting_cycles_ = 0;         ///< that the waiting segments take
+    std::vector<Candidate> occupied_;
+    std::size_t size_ = 0;      ///< segments that wait
+    std::uint64_t number_ = 0;  ///< of the next segment
+    double free_ = 0;           ///< when the PEs have had the tasks issued so far
+    double waiting_cycles_ = 0; ///< that the waiting segments take
 };
 
 } // namespace degs

@@ -20,7 +20,7 @@ double AnalyticSlicing::begin(double arrived) {
     const auto unit = std::min_element(free_.begin(), free_.end());
     begun_ = latest_ = std::max({std::ceil(arrived), begun_, *unit});
     std::swap(*unit, free_.back()); // the unit at work is the last one
-    sent_ = 0;
+    sent_ = cell_ = 0;
     next_row_ = 0;
     return begun_;
 }
@@ -31,7 +31,7 @@ double AnalyticSlicing::send(int row) {
         passed_[next_row_] =
             sent_ == 0 ? passed_[next_row_] : std::max(passed_[next_row_], latest_);
     }
-    double& cell = recent_[sent_ % recent_.size()];
+    double& cell = recent_[cell_];
     double date = std::max(latest_, passed_[row]);
     if (sent_ >= recent_.size()) {
         date = std::max(date, cell + 1);
@@ -42,6 +42,7 @@ double AnalyticSlicing::send(int row) {
     cell = latest_ = date;
     passed_[row] = date;
     ++sent_;
+    cell_ = cell_ + 1 == recent_.size() ? 0 : cell_ + 1;
     next_row_ = row + 1;
     return date;
 }
@@ -49,7 +50,7 @@ double AnalyticSlicing::send(int row) {
 void AnalyticSlicing::stall(double date) {
     stalled_ = latest_;
     stalled_until_ = date;
-    recent_[(sent_ - 1) % recent_.size()] = latest_ = date;
+    recent_[(cell_ == 0 ? recent_.size() : cell_) - 1] = latest_ = date;
     passed_[next_row_ - 1] = date;
 }
 

@@ -34,6 +34,7 @@ private:
     std::vector<double> passed_; ///< by row: when all splats so far have passed it; rising
     std::vector<double> recent_; ///< the latest rows of the splat, a cycle's worth
     std::size_t sent_ = 0;       ///< rows of the splat
+    std::size_t cell_ = 0;       ///< of recent_, for the next one
     int next_row_ = 0;           ///< that the splat has not passed
     double begun_ = 0, latest_ = 0, done_ = 0;
     double stalled_ = 0, stalled_until_ = 0; ///< when the units stood still the last time

@@ -47,19 +47,25 @@ TEST(LongAccuracyScenes, ARowPerSceneResolutionAndSet) {
     EXPECT_NE(read_file(folder / "out/accuracy.svg").find("tuned"), std::string::npos);
 }
 
-/// The row, the error image and two images made by other commands say the same.
+/// The row, the error image and two images made by other commands say the same. `rules` are options
+/// of commands without a configuration, `more` of all.
 void expect_difference_of_run_and_render(const std::string& numbers,
                                          const std::vector<std::string>& keys,
-                                         const std::string& projection) {
+                                         const std::string& projection,
+                                         const std::vector<std::string>& rules = {},
+                                         const std::vector<std::string>& more = {}) {
     const Folder folder;
     const std::vector<std::string> view{"--scene", kAccuracyScene, "--camera", "0"};
-    const auto with = [&view](std::vector<std::string> arguments) {
-        arguments.insert(arguments.end(), view.begin(), view.end());
+    const auto with = [&view, &more](std::vector<std::string> arguments,
+                                     const std::vector<std::string>& own = {}) {
+        for (const std::vector<std::string>& words : {view, more, own}) {
+            arguments.insert(arguments.end(), words.begin(), words.end());
+        }
         return arguments;
     };
-    const json rows = accuracy_of_scenes(folder, with({"--numbers", numbers}));
+    const json rows = accuracy_of_scenes(folder, with({"--numbers", numbers}, rules));
     ASSERT_EQ(rows.size(), 1U);
-    expect_success(degs(with({"render", "--out", folder / "render"})));
+    expect_success(degs(with({"render", "--out", folder / "render"}, rules)));
     std::vector<std::string> command{"run",   config("degs-64"),     "--out", folder / "run",
                                      "--set", "pipeline.tiles=exact"}; // the lists of both others
     for (const std::string& key : keys) {
@@ -95,6 +101,44 @@ void expect_difference_of_run_and_render(const std::string& numbers,
 TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {
     expect_difference_of_run_and_render(
         "paper", {"pipeline.numbers=paper", "pipeline.span_ends=slope"}, "fp32");
+}
+
+TEST(AccuracyScenes, DrawsByTheRulesAndInThePartOfRuns) {
+    expect_difference_of_run_and_render(
+        "paper",
+        {"pipeline.numbers=paper", "pipeline.span_ends=slope", "pipeline.rules.preset=khr",
+         "pipeline.rules.low_pass=0.1", "pipeline.rules.antialiasing=on", "pipeline.rules.cut=8"},
+        "fp32", {"--rules", "khr", "--low-pass", "0.1", "--antialiasing", "on", "--cut", "8"},
+        {"--width", "320", "--crop", "101,57,96x64"});
+}
+
+TEST(AccuracyScenes, HasARowForEachView) {
+    const Folder folder;
+    const auto rows_of = [&folder](const std::vector<std::string>& views) {
+        std::vector<std::string> all{"--scene", kAccuracyScene, "--width",
+                                     "64",      "--numbers",    "paper"};
+        all.insert(all.end(), views.begin(), views.end());
+        json rows = accuracy_of_scenes(folder, all);
+        for (json& row : rows) {
+            row.erase("error_image");
+        }
+        return rows;
+    };
+    const json eyes = rows_of({"--eyes", "0.1"});
+    ASSERT_EQ(eyes.size(), 2U);
+    EXPECT_EQ(eyes[0]["eye"], "left");
+    EXPECT_EQ(eyes[1]["eye"], "right");
+    EXPECT_NE(eyes[0]["alpha_error_mean"], eyes[1]["alpha_error_mean"]);
+    EXPECT_NE(read_file(folder / "out/accuracy.svg").find("right eye"), std::string::npos);
+    EXPECT_EQ(rows_of({"--eyes", "0.05", "--units-per-metre", "2"}), eyes);
+    const json views = rows_of({"--views", "2,1"});
+    ASSERT_EQ(views.size(), 2U);
+    EXPECT_EQ(views[0], rows_of({"--camera", "2"})[0]);
+    EXPECT_EQ(views[1], rows_of({"--camera", "1"})[0]);
+    EXPECT_FALSE(views[0].contains("eye"));
+    expect_success(degs({"accuracy", "--single-gaussian", "--splats", "20", "--scene",
+                         kAccuracyScene, "--views", "2,1", "--out", folder / "single"}));
+    EXPECT_EQ(json::parse(read_file(folder / "single/accuracy.json")).back()["camera"], 1);
 }
 
 TEST(AccuracyScenes, ProjectsAsTheRunDoes) {

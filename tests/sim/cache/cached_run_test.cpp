@@ -261,7 +261,10 @@ TEST(FrameCache, KeepsTheViewsOfAChangingSceneByFrame) {
     const auto frames_of = [&](const sim::PathRequest& path, const sim::FrameCache& of) {
         sim::CachedView view(request, path, of);
         const auto frames = all_frames(view, design.accelerator());
-        view.keep({frames.begin(), frames.begin() + view.views()}, {});
+        std::vector<FramePointer> first;
+        std::transform(frames.begin(), frames.begin() + view.views(), std::back_inserter(first),
+                       borrowed);
+        view.keep(first, {});
         return frames;
     };
     frames_of(two, cache);

@@ -41,6 +41,7 @@ const std::map<std::string, Words> kCommands{
     {"config", {}},
     {"accuracy", {}},
     {"registers", {}},
+    {"serve", {}},
     {"help", {}},
 };
 
@@ -90,22 +91,18 @@ const std::set<std::string> kFlags{
     "--quick",    "--bash-completion", "--zsh-completion"};
 
 /// What options take that do not take 1; for "every other value", one of those.
-const std::map<std::string, Words> kValues{{"--views", {"0,1"}},
-                                           {"--foveation", {"0.5,0.5:10:20"}},
-                                           {"--block-log", {"bank:0", "log.csv"}},
-                                           {"--budget", {"9"}},
-                                           {"--population", {"9"}},
-                                           {"--diff", {"degs", "gbu"}},
-                                           {"--copies", {"2x2"}},
-                                           {"--format", {"text"}},
-                                           {"--keys", {"own"}},
-                                           {"--of", {"run"}},
-                                           {"--pattern", {"stream"}},
-                                           {"--requests", {"1000"}},
-                                           {"--schema", {"design"}},
-                                           {"config", {"degs"}},
-                                           {"command", {"run"}},
-                                           {"out", {"scene.glb"}}};
+const std::map<std::string, Words> kValues{
+    {"--views", {"0,1"}},        {"--foveation", {"0.5,0.5:10:20"}},
+    {"--rules", {"khr"}},        {"--order", {"depth"}},
+    {"--antialiasing", {"on"}},  {"--projection", {"linear"}},
+    {"--lens", {"camera"}},      {"--block-log", {"bank:0", "log.csv"}},
+    {"--budget", {"9"}},         {"--population", {"9"}},
+    {"--diff", {"degs", "gbu"}}, {"--copies", {"2x2"}},
+    {"--format", {"text"}},      {"--keys", {"own"}},
+    {"--of", {"run"}},           {"--pattern", {"stream"}},
+    {"--requests", {"1000"}},    {"--schema", {"design"}},
+    {"config", {"degs"}},        {"command", {"run"}},
+    {"out", {"scene.glb"}}};
 const std::map<std::string, std::string> kOthers{
     {"--frames=1", "2"}, {"--between=0", "2"}, {"--of=run", "compare"}, {"--cpu=riscv", "host"}};
 

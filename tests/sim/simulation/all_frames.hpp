@@ -10,7 +10,7 @@ namespace degs::sim_test {
 /// Copies of all frames of a path.
 inline std::vector<FrameWorkload> all_frames(sim::CachedView& view,
                                              const AcceleratorConfig& config) {
-    const std::vector<FrameWorkload> first = view.first_frame(config);
+    const std::vector<FramePointer> first = view.first_frame(config);
     FrameSource source = view.frames(config, first);
     std::vector<FrameWorkload> all;
     while (const FramePointer frame = source.take()) {

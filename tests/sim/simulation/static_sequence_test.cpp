@@ -32,7 +32,7 @@ Outcome run_still(const std::string& scene, const std::string& cameras) {
     run.recording.images = true;
     CachedView view(request, PathRequest{3, 0}, FrameCache()); // no step from frame to frame
     const AcceleratorConfig& design = run.config.accelerator();
-    const std::vector<FrameWorkload> first = view.first_frame(design);
+    const std::vector<FramePointer> first = view.first_frame(design);
     RunResult result = run_frames(run, view.frames(design, first));
     return {std::move(result.accelerator), result.changes};
 }
