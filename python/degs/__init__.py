@@ -12,10 +12,10 @@ from .design import Design, Section
 from .process import DegsWarning, Error, Missing, program, version
 from .report import Node, Report, run
 from .session import Session
-from .studies import Study, compare, statistics, sweep
+from .studies import Study, bandwidth, buffers, compare, statistics, sweep
 
 __all__ = ["Design", "DegsWarning", "Error", "Missing", "Node", "Report", "Section", "Session", "Study", "accuracy",
-           "compare", "memory", "motion", "program", "run", "scene", "soc", "statistics", "sweep", "version", "workload"]
+           "bandwidth", "buffers", "compare", "memory", "motion", "program", "run", "scene", "soc", "statistics", "sweep", "version", "workload"]
 __version__ = "0.1.0"
 
 for _each in (DegsWarning, Error, Missing):

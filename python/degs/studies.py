@@ -134,6 +134,28 @@ class Study:
         with self._written() as file:
             return compared([file], jobs, out, progress, options)
 
+    def bandwidth(self, *, jobs: Optional[int] = None, out: Optional[PathLike] = None,
+                  progress: Optional[bool] = None, **options: Any) -> pandas.DataFrame:
+        """The bandwidth from which memory does not limit a design: a row for each design and view of a study without
+        axes, with the keys of `thresholds` in bandwidth.json (docs/sizing.md)."""
+        with self._written() as file, folder_of(out) as folder:
+            words = options_of(jobs=jobs or processors(), out=folder)
+            call(["bandwidth", file, *study_options(options), *words], progress)
+            return pandas.DataFrame(json.loads((folder / "bandwidth.json").read_text(encoding="utf-8"))["thresholds"])
+
+    def buffers(self, lose: Optional[float] = None, *, jobs: Optional[int] = None, out: Optional[PathLike] = None,
+                progress: Optional[bool] = None, **options: Any) -> pandas.DataFrame:
+        """The smallest buffers of a design that lose at most `lose` percent (1) on every view: a row for each buffer
+        (docs/sizing.md). attrs: the other keys of buffers.json, such as `settings` for Design.update()."""
+        with self._written() as file, folder_of(out) as folder:
+            words = options_of(lose=lose, jobs=jobs or processors(), out=folder)
+            call(["buffers", file, *study_options(options), *words], progress)
+            found = json.loads((folder / "buffers.json").read_text(encoding="utf-8"))
+            frame = pandas.DataFrame(found.pop("buffers"))
+            found["settings"] = dict(setting.split("=", 1) for setting in found["settings"])
+            frame.attrs.update(found)
+            return frame
+
     def __repr__(self) -> str:
         return f"Study({self._file or self._values.get('study', 'study')})"
 
@@ -180,6 +202,19 @@ def compare(designs: Designs, scene: Union[None, PathLike, Sequence[PathLike]] =
     Names are those of the designs; a mapping from names to designs gives others."""
     views = {"scene": scene, **options}
     return Study({"designs": designs}).compare(jobs=jobs, out=out, progress=progress, **views)
+
+
+def bandwidth(designs: Designs, scenes: Union[PathLike, Sequence[PathLike]], *, jobs: Optional[int] = None,
+              out: Optional[PathLike] = None, progress: Optional[bool] = None, **views: Any) -> pandas.DataFrame:
+    """Study.bandwidth() of designs on views such as camera=2, resolution="1080p"."""
+    return Study({"designs": designs, "scenes": scenes}).bandwidth(jobs=jobs, out=out, progress=progress, **views)
+
+
+def buffers(design: Designs, scenes: Union[PathLike, Sequence[PathLike]], lose: Optional[float] = None, *,
+            jobs: Optional[int] = None, out: Optional[PathLike] = None, progress: Optional[bool] = None,
+            **views: Any) -> pandas.DataFrame:
+    """Study.buffers() of a design on views such as cameras=[0, 2], width=640."""
+    return Study({"designs": design, "scenes": scenes}).buffers(lose, jobs=jobs, out=out, progress=progress, **views)
 
 
 def compared(words: Sequence[str], jobs: Optional[int], out: Optional[PathLike], progress: Optional[bool],

@@ -189,3 +189,14 @@ def test_points_that_did_finish_are_in_the_error(tmp_path, monkeypatch):
     with pytest.raises(degs.Error) as caught:
         degs.sweep("degs-64", {"span.count": [4]}, "nothing.ply")
     assert caught.value.results is None
+
+
+def test_bandwidth_and_buffers(tmp_path):
+    found = degs.bandwidth(["degs-16", "gscore-16"], SCENE, camera=1, width=64, progress=False, out=tmp_path)
+    assert found["design"].tolist() == ["degs-16", "gscore-16"] and (tmp_path / "bandwidth.json").exists()
+    limited = found[found["gb_per_s"].notna()]
+    assert ((limited["low_gb_per_s"] <= limited["gb_per_s"]) & (limited["gb_per_s"] <= limited["high_gb_per_s"])).all()
+    fitted = degs.buffers("degs-16", SCENE, 5, camera=1, width=64, progress=False)
+    assert (fitted["smallest_bytes"] <= fitted["bytes"]).all() and fitted.attrs["loss"] <= 0.05
+    smaller = degs.Design("degs-16").with_(fitted.attrs["settings"])
+    assert smaller["packing.bytes"] == fitted.set_index("key").loc["packing.bytes", "smallest_bytes"]

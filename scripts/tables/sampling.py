@@ -12,7 +12,7 @@ SAMPLED = {"degs-16": (), "degs@32": (), "degs-64": (), "degs-256": (), "gscore-
            "gscore@128": (), "gscore-256": (), "gcc-16": (), "gcc-64": ("view_size=32",),
            "gbu-16": ("reuse_cache.bytes=0",), "gbu-64": ("reuse_cache.bytes=0",), "orange-o1": (),
            "degs-64-tuned": ("slicing.interleave=1",)}
-# Views that took no part in the choice of the rule, which was made on flowers and skull, camera 2, and guitar, camera 1.
+# Views that took no part in the choice of the rule: that was made on flowers and skull, camera 2, and guitar, camera 1.
 HELD_OUT = (("seal", "1"), ("st-peter", "2"))
 SEEDS = 30  # of each view
 ERRORS = (1, 2, 3, 5)
@@ -86,7 +86,7 @@ def within_runs():
 
 
 def medians(views):
-    """(share of the tiles, time over that of the exact run) by error, over the views that are sampled at all of them."""
+    """(share of the tiles, time over that of the exact run) by error, over views that are sampled at all."""
     sampled = [(exact, reports) for exact, reports in views if all(map(is_sampled, reports))]
     return len(sampled), [(median(r[i]["sampling"]["tiles_simulated"] / r[i]["sampling"]["tiles"] for _, r in sampled),
                            median(r[i].host.run_s / exact.host.run_s for exact, r in sampled))
@@ -103,7 +103,7 @@ def within_cost():
         longest = max(report.host.run_s / exact.host.run_s for exact, reports in views for report in reports)
         rows.append([f"{name}, {size}", f"{count} of {len(views)}",
                      *([f"{tiles:.2f}, {time:.2f}" for tiles, time in cells] or [""] * len(ERRORS)), f"{longest:.2f}"])
-    return markdown(["design", "views", *(f"±{error} %: tiles, time" for error in ERRORS), "longest time of all"], rows)
+    return markdown(["design", "views", *(f"±{error} %: tiles, time" for error in ERRORS), "longest of all"], rows)
 
 
 @table("docs/images/within.svg", "within-picture")

@@ -20,7 +20,7 @@ struct Loss {
 std::vector<Loss> losses_of(const RunResult& result);
 /// The changes that the three largest name, each once.
 std::vector<std::string> named_changes(const RunResult& result);
-/// Of the changes that a loss names, the one that gains most; null if none was estimated.
+/// The change that gains most among those that a loss names; null if none was estimated.
 const WhatIf* best_gain(const Loss& loss, const RunResult& result);
 /// The three largest as one line.
 std::string losses_line(const RunResult& result);

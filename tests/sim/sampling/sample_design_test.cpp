@@ -137,7 +137,7 @@ struct SkewFrame {
     }
 };
 
-// Of the runs that stop because their interval is narrow, 95 of 100 hold, although each could have
+// Intervals hold in 95 of 100 runs that stop because theirs is narrow, although each could have
 // stopped at several looks.
 TEST(StoppingRule, IntervalsHoldWhereRunsStop) {
     SamplingRequest request;
