@@ -28,8 +28,8 @@ struct Found {
     int simulated_steps = 0;
 };
 
-Found find(const std::string& design, const std::vector<std::string>& sets,
-           const Latency& estimated, const Latency& simulated) {
+Found find_threshold(const std::string& design, const std::vector<std::string>& sets,
+                     const Latency& estimated, const Latency& simulated) {
     const Folder folder;
     std::ofstream(folder / "s.yaml") << "designs:\n  - include: " << config(design)
                                      << "\n    name: a\nscenes: synthetic:object,gaussians=10\n"
@@ -84,7 +84,7 @@ double threshold_of(const Latency& latency) {
 TEST(BandwidthSearch, FindsTheThresholdWhereTheEstimatesAreRight) {
     for (const double gigabytes : {0.02, 0.3, 2.0}) {
         const Latency latency = frame(gigabytes, 3);
-        const Found found = find("degs-64", {}, latency, latency);
+        const Found found = find_threshold("degs-64", {}, latency, latency);
         ASSERT_TRUE(found.threshold.gb_per_s) << found.threshold.none;
         const double exact = threshold_of(latency);
         EXPECT_NEAR(*found.threshold.gb_per_s / exact, 1, 0.02);
@@ -99,7 +99,7 @@ TEST(BandwidthSearch, FindsTheThresholdWhereTheEstimatesAreRight) {
 TEST(BandwidthSearch, GoesOnWhereTheEstimatesAreWrong) {
     for (const double off : {0.3, 0.7, 1.5, 4.0}) {
         const Latency latency = frame(0.3, 3);
-        const Found found = find("degs-64", {}, frame(0.3 * off, 3), latency);
+        const Found found = find_threshold("degs-64", {}, frame(0.3 * off, 3), latency);
         ASSERT_TRUE(found.threshold.gb_per_s) << found.threshold.none;
         EXPECT_NEAR(*found.threshold.gb_per_s / threshold_of(latency), 1, 0.02) << off;
         EXPECT_LE(found.threshold.simulated, 12U) << off;
@@ -108,17 +108,17 @@ TEST(BandwidthSearch, GoesOnWhereTheEstimatesAreWrong) {
 
 TEST(BandwidthSearch, VariesTheDataRateOfLpddr5) {
     const Latency latency = frame(0.5, 3);
-    const Found found = find("degs-64", {"memory.model=lpddr5"}, latency, latency);
+    const Found found = find_threshold("degs-64", {"memory.model=lpddr5"}, latency, latency);
     ASSERT_TRUE(found.threshold.gb_per_s) << found.threshold.none;
     EXPECT_NEAR(*found.threshold.gb_per_s / threshold_of(latency), 1, 0.02);
 }
 
 TEST(BandwidthSearch, SaysThatThereIsNone) {
     const Latency never = [](double) { return 3.0; };
-    EXPECT_NE(find("degs-64", {}, never, never).threshold.none.find("Already at"),
+    EXPECT_NE(find_threshold("degs-64", {}, never, never).threshold.none.find("Already at"),
               std::string::npos);
     const Latency always = [](double gb_per_s) { return 1e3 / gb_per_s; };
-    const Found found = find("degs-64", {}, always, always);
+    const Found found = find_threshold("degs-64", {}, always, always);
     EXPECT_NE(found.threshold.none.find("Even at"), std::string::npos);
     EXPECT_FALSE(found.threshold.gb_per_s);
 }

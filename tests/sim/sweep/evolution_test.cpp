@@ -171,7 +171,7 @@ TEST(Evolution, FindsTheFrontOfAllDesigns) {
 }
 
 /// The keys of two_view_space() of the designs in front.csv, and whether they are on the front.
-std::map<std::vector<double>, bool> designs_in(const std::string& folder) {
+std::map<std::vector<double>, bool> front_designs(const std::string& folder) {
     std::map<std::vector<double>, bool> designs;
     for (const CsvRow& row : rows_by_heading(read_file(folder + "/front.csv"))) {
         std::vector<double> keys;
@@ -191,7 +191,7 @@ TEST(Evolution, EndsWhereNoNeighbourBeatsTheFront) {
     EXPECT_EQ(found["search"]["end"], "no neighbour of the front beats it, and no other estimated "
                                       "design is likely to");
     explored(file, folder / "all", {"--budget", "24"});
-    const auto simulated = designs_in(folder / "out"), all = designs_in(folder / "all");
+    const auto simulated = front_designs(folder / "out"), all = front_designs(folder / "all");
     EXPECT_LT(simulated.size(), all.size());
     int front = 0;
     for (const auto& [keys, on_front] : simulated) {
