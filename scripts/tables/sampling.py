@@ -9,7 +9,7 @@ from measuring.tables import csv_text, markdown, table
 PAGE = "docs/sampling.md"
 # Designs that can be sampled, and the keys that take out what couples the tiles of the others.
 SAMPLED = {"degs-16": (), "degs@32": (), "degs-64": (), "degs-256": (), "gscore-16": (), "gscore-64": (),
-           "gscore@128": (), "gscore-256": (), "gcc-16": (), "gcc-64": ("view_size=32",),
+           "gscore-256": (), "gcc-16": (), "gcc-64": ("view_size=32",),
            "gbu-16": ("reuse_cache.bytes=0",), "gbu-64": ("reuse_cache.bytes=0",), "orange-o1": (),
            "degs-64-tuned": ("slicing.interleave=1",)}
 # Views that took no part in the choice of the rule: that was made on flowers and skull, camera 2, and guitar, camera 1.

@@ -48,6 +48,7 @@ void on_own_thread(const std::function<void()>& work) {
 
 std::vector<FramePointer> pointers_to(std::vector<FrameWorkload> frames) {
     std::vector<FramePointer> pointers;
+    pointers.reserve(frames.size());
     for (FrameWorkload& frame : frames) {
         pointers.push_back(std::make_shared<FrameWorkload>(std::move(frame)));
     }

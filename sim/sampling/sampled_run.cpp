@@ -200,6 +200,8 @@ public:
     }
 
     std::size_t measured() const { return measured_ + 2 * design_.edge; }
+    /// With those that only fill the pipeline, which may come twice.
+    std::size_t simulated() const { return run_.simulated(); }
     std::size_t groups() const { return next_; }
 
 private:
@@ -325,12 +327,13 @@ std::string refusal_of(const SamplingRequest& request, const AcceleratorConfig& 
 Verdict verdict_on(const Sampler& sampler, const FrameEstimate& estimate, SamplingFacts& facts,
                    std::size_t& looks) {
     facts.measured = sampler.measured();
-    const double share = ratio_of(facts.measured, facts.tiles);
     if (facts.request.share > 0) {
         return sampler.groups() < kLeastGroups && sampler.more()
                    ? Verdict::More
-                   : judge_sample(facts.request, share, 0, sampler.more());
+                   : judge_sample(facts.request, ratio_of(facts.measured, facts.tiles), 0,
+                                  sampler.more());
     }
+    const double share = ratio_of(sampler.simulated(), facts.tiles);
     if (sampler.groups() < groups_at_look(looks) && sampler.more() && share < kMostShare) {
         return Verdict::More;
     }

@@ -11,7 +11,8 @@ namespace degs::sim {
 
 /// Groups before the first look at the interval: fewer say too little about their own scatter.
 inline constexpr std::size_t kLeastGroups = 12;
-/// Above this share of the tiles a sample takes as long as an exact run.
+/// Above this share of simulated tiles a sample takes about as long as an exact run, with what
+/// expecting the work of all tiles takes.
 inline constexpr double kMostShare = 0.5;
 /// Above this share of the memory's peak, requests of other tiles hold up those of a tile: a sample
 /// has fewer of them, and at other dates. Measured: docs/sampling.md.
@@ -43,7 +44,8 @@ enum class Verdict {
     Enough, ///< the interval is as narrow, or the share as large, as was asked for
     Spent,  ///< as many tiles as pay have been simulated, and the interval is wider
 };
-/// `share`: of the tiles, so far; `reached`: half of the interval over the value; `more`: whether
+/// `share`: of the tiles, so far: measured ones if a share was asked for, and else simulated ones;
+/// `reached`: half of the interval over the value; `more`: whether
 /// tiles are left.
 Verdict judge_sample(const SamplingRequest& request, double share, double reached, bool more);
 

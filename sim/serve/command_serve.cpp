@@ -54,6 +54,7 @@ WorkEnd run_request(const Request& request, const PreparedProgram& program) {
     std::vector<std::string> words{"degs"};
     words.insert(words.end(), request.arguments.begin(), request.arguments.end());
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words) {
         argv.push_back(word.data());
     }
