@@ -146,13 +146,14 @@ class Study:
     def buffers(self, lose: Optional[float] = None, *, jobs: Optional[int] = None, out: Optional[PathLike] = None,
                 progress: Optional[bool] = None, **options: Any) -> pandas.DataFrame:
         """The smallest buffers of a design that lose at most `lose` percent (1) on every view: a row for each buffer
-        (docs/sizing.md). attrs: the other keys of buffers.json, such as `settings` for Design.update()."""
+        (docs/sizing.md). attrs: the other keys of buffers.json, such as `settings` for Design.with_()."""
         with self._written() as file, folder_of(out) as folder:
             words = options_of(lose=lose, jobs=jobs or processors(), out=folder)
             call(["buffers", file, *study_options(options), *words], progress)
             found = json.loads((folder / "buffers.json").read_text(encoding="utf-8"))
             frame = pandas.DataFrame(found.pop("buffers"))
-            found["settings"] = dict(setting.split("=", 1) for setting in found["settings"])
+            pairs = [setting.split("=", 1) for setting in found["settings"]]
+            found["settings"] = {key: int(count) for key, count in pairs}
             frame.attrs.update(found)
             return frame
 

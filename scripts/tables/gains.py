@@ -9,7 +9,6 @@ DESIGNS = ("degs-64", "degs-256", "degs-64-tuned", "gscore-64", "gscore-256", "g
 # A design that its memory limits stands beside the same design as it is shipped.
 DESIGNS_FED_LESS = {("gscore-64", "25.6"), ("degs-64", "25.6")}
 VIEW = "--camera 2 --resolution 720p"
-NAMED = 3  # losses in the line of a run
 
 
 def designs():
@@ -20,8 +19,8 @@ def designs():
 def pairs():
     """[design, changed keys, scene, change, gain that was named, gain of a run], in %."""
     before = yield {(name, keys, scene): run(name, scene, VIEW, *keys) for name, keys in designs() for scene in FIVE}
-    named = {(*view, loss["change"]): loss["gain"] for view, report in before.items()
-             for loss in report["losses"][:NAMED] if loss["gain"] is not None}
+    named = {(*view, each["change"]): each["gain"] for view, report in before.items() if "gains" in report
+             for each in report["gains"]}
     after = yield {(name, keys, scene, change): run(name, scene, VIEW, *keys, *change.split(","))
                    for name, keys, scene, change in named}
     return [[*key[:3], key[3], 100 * gain, 100 * (1 - after[key].cycles / before[key[:3]].cycles)]

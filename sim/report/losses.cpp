@@ -171,11 +171,15 @@ std::vector<Loss> losses_of(const RunResult& result) {
     return Losses(result).all();
 }
 
-std::vector<std::string> named_changes(const RunResult& result) {
+std::vector<Loss> largest_losses(const RunResult& result) {
     std::vector<Loss> losses = losses_of(result);
     losses.resize(std::min(losses.size(), kNamed));
+    return losses;
+}
+
+std::vector<std::string> named_changes(const RunResult& result) {
     std::vector<std::string> changes;
-    for (const Loss& loss : losses) {
+    for (const Loss& loss : largest_losses(result)) {
         for (const LossStep& key : loss.keys) {
             if (std::find(changes.begin(), changes.end(), key.change) == changes.end()) {
                 changes.push_back(key.change);
@@ -198,10 +202,8 @@ const WhatIf* best_gain(const Loss& loss, const RunResult& result) {
 }
 
 std::string losses_line(const RunResult& result) {
-    std::vector<Loss> losses = losses_of(result);
-    losses.resize(std::min(losses.size(), kNamed));
     std::string line;
-    for (const Loss& loss : losses) {
+    for (const Loss& loss : largest_losses(result)) {
         line += (line.empty() ? "" : " · ") + loss.reason + " " + percent(loss.share) +
                 (line.empty() ? " % of the frame" : " %") + " (" + advice_of(loss, result) + ")";
     }

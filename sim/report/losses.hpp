@@ -18,7 +18,9 @@ struct Loss {
 /// All of them, the largest first; with `useful / (PEs x cycles)` they add up to 1. Empty without
 /// any cycles.
 std::vector<Loss> losses_of(const RunResult& result);
-/// The changes that the three largest name, each once.
+/// The three largest.
+std::vector<Loss> largest_losses(const RunResult& result);
+/// The changes that they name, each once.
 std::vector<std::string> named_changes(const RunResult& result);
 /// The change that gains most among those that a loss names; null if none was estimated.
 const WhatIf* best_gain(const Loss& loss, const RunResult& result);

@@ -198,12 +198,19 @@ ordered_json losses_json(const RunResult& result) {
         for (const LossStep& key : loss.keys) {
             keys.push_back(key.words);
         }
-        const WhatIf* const best = best_gain(loss, result);
-        json.push_back({{"reason", loss.reason},
-                        {"share", loss.share},
-                        {"keys", keys},
-                        {"change", best == nullptr ? ordered_json() : ordered_json(best->change)},
-                        {"gain", best == nullptr ? ordered_json() : ordered_json(-best->share())}});
+        json.push_back({{"reason", loss.reason}, {"share", loss.share}, {"keys", keys}});
+    }
+    return json;
+}
+
+/// What the changes of the largest losses gain, as the summary has them.
+ordered_json gains_json(const RunResult& result) {
+    ordered_json json = ordered_json::array();
+    for (const Loss& loss : largest_losses(result)) {
+        if (const WhatIf* const best = best_gain(loss, result)) {
+            json.push_back(
+                {{"reason", loss.reason}, {"change", best->change}, {"gain", -best->share()}});
+        }
     }
     return json;
 }
@@ -309,6 +316,9 @@ ordered_json report(const RunResult& result) {
     }
     if (result.sampling) {
         json["sampling"] = sampling_json(*result.sampling);
+    }
+    if (!result.gains.empty()) {
+        json["gains"] = gains_json(result);
     }
     if (!result.what_if.empty()) {
         json["what_if"] = what_if_json(result.what_if);

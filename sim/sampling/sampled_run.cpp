@@ -309,7 +309,7 @@ double expected_memory_use(const AnalyticModel* model, const FrameWorkload& fram
 std::string refusal_of(const SamplingRequest& request, const AcceleratorConfig& config,
                        const AnalyticModel* model, const FrameWorkload& frame,
                        const BuildOptions& options, std::size_t tiles) {
-    const std::string coupling = coupled(config.tile_coupling(options.array_only));
+    std::string coupling = coupled(config.tile_coupling(options.array_only));
     if (!coupling.empty()) {
         return coupling;
     }

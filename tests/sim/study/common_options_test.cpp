@@ -88,7 +88,8 @@ TEST(MemoryOption, IsRefusedWhereNoMemoryIsSimulated) {
         std::vector<std::string> all = words;
         all.insert(all.end(), {"--memory", memory});
         expect_mistake(degs(all), "'--memory' is not expected here; it is an option of run, "
-                                  "compare, sweep, explore, motion, soc, accuracy.");
+                                  "compare, sweep, explore, bandwidth, buffers, motion, "
+                                  "soc, accuracy.");
     }
     expect_mistake(degs({"accuracy", "--scene", "synthetic:single", "--memory", memory}),
                    "--memory is for runs of configurations, so it needs --speed.");
