@@ -98,7 +98,7 @@ void add_commands(CLI::App& program) {
     require_decimal_numbers(program);
 }
 
-/// Says what the exception that is caught says; returns its exit code.
+/// Reports the exception that is being caught; returns its exit code.
 int fail() {
     const Failure failure = failure_of(std::current_exception());
     return fail(failure.code, failure.sentence);

@@ -42,11 +42,15 @@ def loss_gains():
     rows = []
     for name, keys in designs():
         own = [row for row in found if row[:2] == [name, keys]]
+        if not own:  # a tiny view may lose nothing that a key moves
+            rows.append([" ".join([name, *keys]), "", 0, 0, ""])
+            continue
         worst = max(own, key=lambda row: abs(row[4] - row[5]))
         rows.append([" ".join([name, *keys]), f"{worst[4]:.1f} for {worst[5]:.1f}: `{worst[3]}`, {worst[2]}",
                      len(own), sum(abs(row[4] - row[5]) <= 2 for row in own),
                      f"{median(abs(row[4] - row[5]) for row in own):.2f}"])
-    rows.append(["all", "", len(found), sum(abs(row[4] - row[5]) <= 2 for row in found),
-                 f"{median(abs(row[4] - row[5]) for row in found):.2f}"])
+    errors = [abs(row[4] - row[5]) for row in found]
+    rows.append(["all", "", len(found), sum(error <= 2 for error in errors),
+                 f"{median(errors):.2f}" if errors else ""])
     return markdown(["design", "worst, named for measured, %", "changes", "within 2 points", "median error, points"],
                     rows, texts=2)

@@ -86,6 +86,29 @@ TEST(Losses, OneSpanUnitStarvesTheArray) {
     EXPECT_LT(share_of(better, "starved, for span"), 0.7 * share_of(line, "starved, for span"));
 }
 
+// Of a design with an analytic model, and not of its array alone.
+TEST(Losses, AreReportedWithWhatTheirChangesGain) {
+    const auto report = [](const std::vector<std::string>& more) {
+        const Folder folder;
+        std::vector<std::string> words{
+            "run", config("degs-64"), "--scene", kObject,       "--width",
+            "240", "--no-reference",  "--out",   folder / "out"};
+        words.insert(words.end(), more.begin(), more.end());
+        expect_success(degs(words));
+        return report_in(folder / "out");
+    };
+    const nlohmann::json whole = report({});
+    ASSERT_TRUE(whole.contains("gains"));
+    for (const nlohmann::json& gain : whole["gains"]) {
+        const nlohmann::json asked = report({"--what-if", gain["change"].get<std::string>()});
+        EXPECT_NEAR(gain["gain"].get<double>(),
+                    1 - asked["what_if"][0]["estimated_after"].get<double>() /
+                            asked["what_if"][0]["estimated_before"].get<double>(),
+                    1e-12);
+    }
+    EXPECT_FALSE(report({"--array-only"}).contains("gains"));
+}
+
 TEST(Losses, SlowMemoryIsNamedForEveryAccelerator) {
     for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64"}) {
         SCOPED_TRACE(design);

@@ -97,23 +97,6 @@ TEST(SpeedCommand, GivesSamplesTheirIntervals) {
     EXPECT_EQ(speed["intervals"][0]["sampled"], 2);
 }
 
-TEST(LongSpeedCommand, CountsASampleThatCameToNothing) {
-    const Folder folder;
-    const std::string scene = "synthetic:object,gaussians=3000";
-    // So narrow an interval that the sample gives up after its first groups.
-    const Outcome outcome =
-        degs({"run", std::string(DEGS_CONFIGS) + "/gscore-64.yaml", "--scene", scene, "--camera",
-              "1", "--within", "0.01%", "--out", folder / "out"});
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    const json report = json::parse(read_file(folder / "out/report.json"));
-    EXPECT_EQ(report["host"]["fidelity"], "exact");
-    ASSERT_NE(outcome.err.find("After "), std::string::npos) << outcome.err;
-    const double exact_s =
-        report["host"]["sim_s"].get<double>() + report["host"]["elaborate_s"].get<double>();
-    EXPECT_GT(report["host"]["run_s"].get<double>(), 1.05 * exact_s);
-    EXPECT_LT(report["host"]["run_s"].get<double>(), 5 * exact_s + 1);
-}
-
 TEST(SpeedCommand, RefusesMistakesBeforeItRuns) {
     const std::string config = std::string(DEGS_CONFIGS) + "/degs-64.yaml";
     const auto refusal = [](const std::vector<std::string>& more) {
