@@ -81,7 +81,7 @@ TEST_P(StatisticsOf, AReportAreListed) {
                              "--width", "64", "--no-reference", "--out", folder / ".", "--set",
                              std::string("memory.model=") + memory}));
         json report = report_in(folder / ".");
-        for (const char* other : {"schema", "tool", "scene", "camera", "config", "losses",
+        for (const char* other : {"schema", "tool", "scene", "camera", "config", "losses", "gains",
                                   "conservation", "warnings"}) {
             report.erase(other);
         }

@@ -86,7 +86,7 @@ TEST(Losses, OneSpanUnitStarvesTheArray) {
     EXPECT_LT(share_of(better, "starved, for span"), 0.7 * share_of(line, "starved, for span"));
 }
 
-// Of a design with an analytic model, and not of its array alone.
+// Gains exist for a design with an analytic model, and not for its array alone.
 TEST(Losses, AreReportedWithWhatTheirChangesGain) {
     const auto report = [](const std::vector<std::string>& more) {
         const Folder folder;
