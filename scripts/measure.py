@@ -9,7 +9,8 @@
     measure.py --quick          makes all with tiny views and writes nothing: the declarations work
 
 Tables are declared in scripts/tables. Results of single points are kept in out/measure and shared between tables;
-docs/tables.json records what each table depended on. The program is DEGS_PROGRAM or build/release/sim/degs."""
+docs/tables.json records what each table depended on. measuring/scenes.py says where scenes are. The program is
+DEGS_PROGRAM or build/release/sim/degs."""
 import argparse
 import concurrent.futures
 import fnmatch

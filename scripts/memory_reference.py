@@ -5,6 +5,9 @@
     memory_reference.py run RAMULATOR    measures both; writes docs/memories.csv
     memory_reference.py table            Markdown table from docs/memories.csv
 
+This is a script, and no declaration of scripts/tables, because the table stands on a foreign program: without it
+measure.py could neither write the table nor check it.
+
 RAMULATOR is a built copy of the public repository CMU-SAFARI/ramulator2 (2.1; its Python bindings are used). Both
 simulators read 64 B at a time, from addresses in a row (`stream`) or at random, with a queue of 32 accesses per channel
 that is always full, open pages and all-bank refresh. Ramulator has one channel, and gets the requests of one channel

@@ -73,11 +73,7 @@ if(TARGET degs_program)
     degs_all_test(sim/JobArrayOnSlurm COST 60 COMMAND ${here}/sweep/slurm.sh $<TARGET_FILE:degs_program> ${configs})
     degs_all_test(sim/RecipesOfClusters COST 20
                   COMMAND ${here}/sweep/clusters.sh $<TARGET_FILE:degs_program> ${PROJECT_SOURCE_DIR})
-    # A path of real cameras, on small scenes.
-    degs_all_test(sim/TableOfACameraPath COMMAND ${scripts}/regime.py --quick --path ${here}/random/cameras.json
-                  EXPECT "interior . degs-64 . [0-9.]+ / [0-9.]+ / [0-9.]+ .*garden . gscore-64 . [0-9.]+ / [0-9.]+ / [0-9.]+ . [0-9.]+ / "
-                  ENVIRONMENT ${program})
-    # Every measured table, made of tiny views.
+    # Every measured table, made of tiny views, also of a path of cameras in small scenes.
     degs_all_test(docs/tables COST 30 COMMAND /usr/bin/python3 ${scripts}/measure.py --quick ENVIRONMENT ${program})
     # Advice for losses, on one small view.
     degs_all_test(sim/AdviceOfOneView COMMAND ${scripts}/advice.py ${configs}/gscore-64.yaml ${configs}/gcc-64.yaml

@@ -1,32 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """Points: single calls of the program whose results tables share.
 
-A point says what is simulated. Two tables that ask for the same point share its result. Scenes are names of folders of
-DEGS_SCENES (default ../shared/scenes), or synthetic:NAME,.... Of the options of a run, `--field DEGREES` is ours: the camera gets that field of view, square pixels and the given size."""
+A point says what is simulated. Two tables that ask for the same point share its result. measuring/scenes.py says how
+scenes and camera files are named, measuring/options.py which options of a run are ours."""
 import csv
 import dataclasses
 import functools
 import hashlib
 import json
-import math
-import os
 import pathlib
+import resource
 import subprocess
-import sys
 import tempfile
 import time
 
 import yaml
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "python"))
-from degs.design import Design, texts_of  # noqa: E402
-from degs.process import call, program  # noqa: E402
-from degs.report import Report  # noqa: E402
+from .options import for_program, path_of
+from .scenes import ROOT, files_of, scene_file
+from degs.design import Design, texts_of
+from degs.process import call, program
+from degs.report import Report
 
-SCENES = pathlib.Path(os.environ.get("DEGS_SCENES", ROOT / "../shared/scenes"))
 FIVE = ("flowers", "guitar", "seal", "skull", "st-peter")  # scenes of most means
 HEIGHTS = {"720p": 720, "1080p": 1080, "2k": 1440, "4k": 2160, "8k": 4320}
+TINY_PATH = "tests/random/cameras.json:2"
 # Of a report: what a probe keeps, if it is there.
 PROBED = ("timing.cycles", "timing.throughput_fps", "timing.preprocessing_cycles", "slots.useful", "slots.boundary",
           "slots.terminated", "slots.conflict", "slots.starved", "slots.blocked", "dram.bytes_read",
@@ -36,10 +34,6 @@ PROBED = ("timing.cycles", "timing.throughput_fps", "timing.preprocessing_cycles
 PROBED_ROW = ("cycles", "preprocessing_cycles", "slots.utilization", "slots.conflict", "dram.bytes_read",
               "dram.bytes_written", "energy.nj_per_frame", "area_mm2")
 PROBED_VIEW = ("visible", "tile_pairs", "fragments_per_pixel", "fragments_per_splat", "terminated_share")
-
-
-class Missing(Exception):
-    """A scene that is not there."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -100,6 +94,9 @@ class Point:
         if "--frames" in self.options and self.kind != "view":
             options += ["--frames", "3"]
         scene = "synthetic:object,gaussians=500" if self.scene else ""
+        if "--path" in options:
+            options[options.index("--path") + 1] = TINY_PATH
+            scene = f"{self.scene.split(',')[0]},gaussians=20000"
         return dataclasses.replace(self, scene=scene, options=tuple(options), runs=min(self.runs, 1))
 
 
@@ -130,15 +127,6 @@ def design_file(name):
         family, pes = name.split("@")
         return str(Design(family, int(pes)).file)
     return name if name.endswith(".yaml") else str(ROOT / f"configs/{name}.yaml")
-
-
-def scene_file(name):
-    if name.startswith("synthetic:"):
-        return name
-    file = SCENES / name / "scene.ply"
-    if not file.exists():
-        raise Missing(f"there is no scene {file}")
-    return str(file)
 
 
 def study_of(name):
@@ -188,8 +176,10 @@ def values_of(file, keys):
 
 def depends_on(point):
     """Texts of all that the result depends on but the program: values of keys, the scene, and the words."""
-    if point.scene and not point.scene.startswith("synthetic:"):
-        yield content(scene_file(point.scene))
+    if point.scene:
+        yield from map(content, files_of(point.scene))
+    if "--path" in point.options:
+        yield content(path_of(point.options)[0])
     if point.kind == "sweep":
         file, study = study_of(point.source)
         yield json.dumps(study, sort_keys=True)
@@ -205,13 +195,12 @@ def depends_on(point):
 
 
 def measured(point, jobs=1):
-    """Calls the program: the values of the result, and the seconds that it took."""
+    """Calls the program: the values of the result, and the seconds that it took. Where times count, `runs` has the
+    section `host` of each run, with the seconds of all processors as `processor_s`."""
     began = time.monotonic()
     values = once(point, jobs)
-    for _ in range(point.runs - 1):
-        again = once(point, jobs)["host"]
-        values["host"] = {name: min(value, again[name]) if isinstance(value, float) else value
-                          for name, value in values["host"].items()}
+    if point.runs:
+        values["runs"] = [values["host"], *(once(point, jobs)["host"] for _ in range(point.runs - 1))]
     return values, time.monotonic() - began
 
 
@@ -223,27 +212,23 @@ def once(point, jobs):
             call([*point.words(), "--jobs", str(jobs), "--out", folder], progress=False, warn=False)
             return {"rows": rows_of(pathlib.Path(folder, "results.csv")),
                     "seconds": [float(row["host.sim_s"]) for row in rows_of(pathlib.Path(folder, "host.csv"))]}
-        call([*with_field(point.words(), pathlib.Path(folder, "camera.json")), "--out", folder], warn=False)
+        words = for_program(point.words(), folder)
+        before = processor_s()
+        call([*words, "--out", folder], warn=False)
+        used = processor_s() - before
         if point.kind == "accuracy":
             return {"rows": json.loads(pathlib.Path(folder, "accuracy.json").read_text(encoding="utf-8"))}
-        return json.loads(pathlib.Path(folder, "report.json").read_text(encoding="utf-8"))
+        name = "analytic.json" if "analytic" in point.options else "report.json"
+        values = json.loads(pathlib.Path(folder, name).read_text(encoding="utf-8"))
+        if point.runs:
+            values["host"]["processor_s"] = used
+        return values
 
 
-def with_field(words, file):
-    """A command line with a camera file in place of --field: the camera of a headset, at the place of the scene's."""
-    if "--field" not in words:
-        return words
-    named = dict(zip(words, words[1:]))
-    call(["scene", "cameras", named["--scene"], "--out", str(file)], warn=False)
-    camera = json.loads(file.read_text(encoding="utf-8"))[int(named["--camera"])]
-    width = int(named["--width"])
-    focal = width / 2 / math.tan(math.radians(float(named["--field"]) / 2))
-    kept = {key: camera[key] for key in ("id", "img_name", "position", "rotation")}
-    file.write_text(json.dumps([{**kept, "width": width, "height": int(named.get("--height", width)), "fx": focal,
-                                 "fy": focal}]), encoding="utf-8")
-    ours = ("--field", "--camera", "--width", "--height")
-    left = [word for before, word in zip(["", *words], words) if word not in ours and before not in ours]
-    return [*left, "--camera-file", str(file)]
+def processor_s():
+    """Seconds of all processors that ended calls took; between two of them that of one call, if it was alone."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def rows_of(path):

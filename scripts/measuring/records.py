@@ -9,7 +9,7 @@ import hashlib
 import json
 
 from . import points
-from .points import ROOT
+from .scenes import ROOT, Missing
 
 FILE = ROOT / "docs/tables.json"
 LONG_S = 0.5  # a probe that takes longer gets a tiny view, so that all of them take seconds
@@ -86,7 +86,7 @@ def check(tables, jobs):
                 reasons = probes[entry["probe"]].result() if entry["probe"] else []
                 if depends[name].result() != entry["depends"]:
                     reasons = ["its points, the values of their keys or their scenes are not what they were", *reasons]
-            except points.Missing as missing:
+            except Missing as missing:
                 untried.append(f"{name}: {missing}")
                 reasons = []
             if tables[name].place != entry["place"] or digest([tables[name].text() or ""]) != entry["text"]:
