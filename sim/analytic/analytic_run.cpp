@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -49,6 +50,22 @@ ordered_json costs_json(const AnalyticRun& run) {
 
 std::string cycles_words(double cycles) {
     return grouped(static_cast<std::uint64_t>(std::max(cycles, 0.0)));
+}
+
+/// How sure the estimate is, and what makes it less so.
+std::string interval_words(const AnalyticFrame& frame) {
+    constexpr double kFewTiles = 20;
+    std::string words = frame.interval
+                            ? "On nine views in ten a simulation takes " +
+                                  cycles_words(frame.interval->low) + " to " +
+                                  cycles_words(frame.interval->high) + " cycles."
+                            : "How far simulations lie from estimates of this accelerator has not "
+                              "been measured.";
+    if (frame.carrying_tiles < kFewTiles) {
+        words += " About " + cycles_words(std::ceil(frame.carrying_tiles)) + " of " +
+                 std::to_string(frame.tiles) + " tiles carry the work, which makes it less sure.";
+    }
+    return words;
 }
 
 } // namespace
@@ -142,13 +159,20 @@ ordered_json analytic_json(const AnalyticRun& run) {
         {"cycles", frame.cycles},          {"lower_cycles", frame.lower},
         {"upper_cycles", frame.upper},     {"preprocessing_cycles", frame.preparation},
         {"latency_ms", milliseconds(run)}, {"clock_ghz", run.config.accelerator().clock_ghz}};
+    if (frame.interval) {
+        json["timing"]["cycles_interval"] = {frame.interval->low, frame.interval->high};
+        json["timing"]["confidence"] = kEstimateConfidence;
+    }
     json["units"] = units_json(frame);
     json["limited_by"] = frame.limited_by;
+    json["limited_share"] = frame.busiest;
     json["slots"] = {{"pes", run.config.accelerator().pes()}, {"utilization", frame.utilization}};
     json["dram"] = {{"bytes", frame.bytes}, {"peak_gb_per_s", run.memory_gb_per_s}};
     json.update(costs_json(run));
-    json["sample"] = {
-        {"tiles", frame.tiles}, {"tiles_drawn", frame.drawn}, {"rows_apart", frame.rows_apart}};
+    json["sample"] = {{"tiles", frame.tiles},
+                      {"tiles_drawn", frame.drawn},
+                      {"rows_apart", frame.rows_apart},
+                      {"carrying_tiles", frame.carrying_tiles}};
     if (!run.what_if.empty()) {
         json["what_if"] = what_if_json(run.what_if);
     }
@@ -176,6 +200,7 @@ std::string analytic_text(const AnalyticRun& run) {
     say(run.config.accelerator().name + " takes about " + cycles_words(frame.cycles) + " cycles, " +
         three_digits(milliseconds(run)) + " ms, of which " + cycles_words(frame.preparation) +
         " before the first tile.");
+    say(interval_words(frame));
     say("At least " + cycles_words(frame.lower) + " if all units overlapped perfectly, at most " +
         cycles_words(frame.upper) + " if none did; rendering is limited by " + frame.limited_by +
         ".");

@@ -22,7 +22,7 @@ ordered_json row_json(const Comparison& comparison, const ComparisonRow& row) {
     }
     for_each_measure([&](Measure m) { put_measure(json, m, row.measures[m]); });
     put_parts(json, row);
-    put_sampling(json, row);
+    put_interval(json, row);
     return json;
 }
 
@@ -70,14 +70,14 @@ ordered_json comparison_json(const Comparison& comparison) {
 std::string comparison_csv(const Comparison& comparison) {
     std::string text = "config" + run_headings();
     for_each_measure([&](Measure m) { text += "," + name_of(m); });
-    const bool sampled = any_sampled(comparison.rows);
+    const bool intervals = any_interval(comparison.rows);
     const std::vector<std::string> parts = names_of(comparison.rows, &RunNumbers::parts);
-    text += part_headings(parts) + (sampled ? sampling_headings() : "") + "\n";
+    text += part_headings(parts) + (intervals ? interval_headings() : "") + "\n";
     for (const ComparisonRow& row : comparison.rows) {
         text += csv_cell(comparison.configs[row.config].name) + run_cells(comparison, row);
         for_each_measure([&](Measure m) { text += "," + csv_number(row.measures[m]); });
-        text += named_cells(row, &RunNumbers::parts, parts) + (sampled ? sampling_cells(row) : "") +
-                "\n";
+        text += named_cells(row, &RunNumbers::parts, parts) +
+                (intervals ? interval_cells(row) : "") + "\n";
     }
     return text;
 }

@@ -71,10 +71,9 @@ std::string cycles_cell(const ComparisonRow& row) {
     if (!cycles) {
         return "";
     }
-    const bool sampled = row.cycles_low && row.cycles_high && *cycles > 0;
+    const bool known = row.cycles_low && row.cycles_high && *cycles > 0;
     return scaled(*cycles) +
-           (sampled ? " ±" + percent((*row.cycles_high - *row.cycles_low) / 2 / *cycles) + " %"
-                    : "");
+           (known ? " ±" + percent((*row.cycles_high - *row.cycles_low) / 2 / *cycles) + " %" : "");
 }
 
 std::string time_table(const Comparison& comparison, std::size_t view) {

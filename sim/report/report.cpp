@@ -209,7 +209,11 @@ ordered_json gains_json(const RunResult& result) {
     for (const Loss& loss : largest_losses(result)) {
         if (const WhatIf* const best = best_gain(loss, result)) {
             json.push_back(
-                {{"reason", loss.reason}, {"change", best->change}, {"gain", -best->share()}});
+                {{"reason", loss.reason},
+                 {"change", best->change},
+                 {"gain", -best->share()},
+                 {"interval",
+                  {-best->share() - best->half_width(), -best->share() + best->half_width()}}});
         }
     }
     return json;

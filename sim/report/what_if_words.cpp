@@ -19,7 +19,9 @@ ordered_json what_if_json(const std::vector<WhatIf>& list) {
         json.push_back({{"set", each.change},
                         {"estimated_before", each.cycles_before},
                         {"estimated_after", each.cycles_after},
-                        {"change", each.share()}});
+                        {"change", each.share()},
+                        {"change_interval",
+                         {each.share() - each.half_width(), each.share() + each.half_width()}}});
     }
     return json;
 }
@@ -32,7 +34,8 @@ std::string what_if_text(const std::vector<WhatIf>& list) {
     TextTable table({"what if, estimated", "cycles before", "after", "change %"});
     for (const WhatIf& each : list) {
         table.add({visible(each.change), cycles(each.cycles_before), cycles(each.cycles_after),
-                   (each.share() > 0 ? "+" : "") + percent(each.share())});
+                   (each.share() > 0 ? "+" : "") + percent(each.share()) + " ±" +
+                       percent(each.half_width())});
     }
     return "\n" + table.text();
 }

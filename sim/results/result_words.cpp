@@ -155,23 +155,23 @@ std::string csv_number(const std::optional<double>& value) {
                                       : decimal_of(*value);
 }
 
-void put_sampling(nlohmann::ordered_json& run, const ComparisonRow& row) {
-    if (row.sampled_share) {
-        run["sampling"] = {{"share", number_json(row.sampled_share)},
+void put_interval(nlohmann::ordered_json& run, const ComparisonRow& row) {
+    if (row.cycles_low) {
+        run["interval"] = {{"sampled", number_json(row.sampled_share)},
                            {"cycles", {number_json(row.cycles_low), number_json(row.cycles_high)}}};
     }
 }
 
-bool any_sampled(const std::vector<ComparisonRow>& rows) {
+bool any_interval(const std::vector<ComparisonRow>& rows) {
     return std::any_of(rows.begin(), rows.end(),
-                       [](const ComparisonRow& row) { return row.sampled_share.has_value(); });
+                       [](const ComparisonRow& row) { return row.cycles_low.has_value(); });
 }
 
-std::string sampling_headings() {
-    return ",sampling.share,sampling.cycles_low,sampling.cycles_high";
+std::string interval_headings() {
+    return ",interval.sampled,interval.cycles_low,interval.cycles_high";
 }
 
-std::string sampling_cells(const ComparisonRow& row) {
+std::string interval_cells(const ComparisonRow& row) {
     return "," + csv_number(row.sampled_share) + "," + csv_number(row.cycles_low) + "," +
            csv_number(row.cycles_high);
 }

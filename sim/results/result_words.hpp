@@ -35,13 +35,14 @@ std::string run_cells(const Comparison& comparison, const ComparisonRow& row);
 
 nlohmann::ordered_json view_json(const ComparedView& view);
 
-/// Share of the tiles and interval of the cycles, for a run that was a sample; else nothing.
-void put_sampling(nlohmann::ordered_json& run, const ComparisonRow& row);
-/// The columns of these in CSV, behind all others and only if a row was a sample: headings, and the
-/// cells of a row.
-bool any_sampled(const std::vector<ComparisonRow>& rows);
-std::string sampling_headings();
-std::string sampling_cells(const ComparisonRow& row);
+/// `interval`: that of the cycles of an estimate or a sample, and the share of the tiles that were
+/// sampled; else nothing.
+void put_interval(nlohmann::ordered_json& run, const ComparisonRow& row);
+/// The columns of these in CSV, behind all others and only if a row has an interval: headings, and
+/// the cells of a row.
+bool any_interval(const std::vector<ComparisonRow>& rows);
+std::string interval_headings();
+std::string interval_cells(const ComparisonRow& row);
 
 /// Quoted if it must be, with quotes doubled (RFC 4180), and with an apostrophe in front of what
 /// programs for tables would calculate. Characters that do things to a terminal are written as

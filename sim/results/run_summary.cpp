@@ -139,6 +139,10 @@ RunSummary summary_of(const AnalyticRun& run, int camera) {
     summary.tile_size = run.workload.tile_size;
     summary.view = view_of(run.scene, run.camera, run.workload, camera);
     summary.measures = measures_of(run);
+    if (run.frame.interval) {
+        summary.cycles_low = run.frame.interval->low;
+        summary.cycles_high = run.frame.interval->high;
+    }
     summary.limited_by = run.frame.limited_by;
     for (const AnalyticFrame::Unit& unit : run.frame.units) {
         const double busy = unit.preparing + unit.rendering;

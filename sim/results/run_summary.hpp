@@ -32,13 +32,14 @@ using NamedNumbers = std::vector<std::pair<std::string, double>>;
 struct RunNumbers {
     std::string fidelity; ///< exact, strict, sampled, or analytic: an estimate without simulation
     Measures measures;
-    std::optional<double> first_task_ms;           ///< from the start of the run
-    std::optional<double> last_task_ms;            ///< end, from the start of the run
-    std::optional<double> sampled_share;           ///< of the tiles; empty: all of them
-    std::optional<double> cycles_low, cycles_high; ///< 95 % interval, of a sample
-    std::string limited_by;                        ///< the busiest stage, or memory
-    NamedNumbers stages;                           ///< with the share of the run they worked
-    NamedNumbers parts; ///< single buffers and blocks by their names, see part_statistics()
+    std::optional<double> first_task_ms; ///< from the start of the run
+    std::optional<double> last_task_ms;  ///< end, from the start of the run
+    std::optional<double> sampled_share; ///< of the tiles; empty: all of them
+    std::optional<double> cycles_low,
+        cycles_high;        ///< 95 % interval of a sample, 90 % of an estimate
+    std::string limited_by; ///< the busiest stage, or memory
+    NamedNumbers stages;    ///< with the share of the run they worked
+    NamedNumbers parts;     ///< single buffers and blocks by their names, see part_statistics()
 };
 
 /// One configuration on one view.

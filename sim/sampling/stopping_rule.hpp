@@ -11,9 +11,10 @@ namespace degs::sim {
 
 /// Groups before the first look at the interval: fewer say too little about their own scatter.
 inline constexpr std::size_t kLeastGroups = 12;
-/// Above this share of simulated tiles a sample takes about as long as an exact run, with what
-/// expecting the work of all tiles takes.
-inline constexpr double kMostShare = 0.5;
+/// Above this share of simulated tiles a sample may take as long as an exact run: a tile out of
+/// its order takes up to half as long again as in it, and expecting the work of all tiles up to 0.4
+/// of an exact run.
+inline constexpr double kMostShare = 0.4;
 /// Above this share of the memory's peak, requests of other tiles hold up those of a tile: a sample
 /// has fewer of them, and at other dates. Measured: docs/sampling.md.
 inline constexpr double kMostMemoryUse = 0.3;

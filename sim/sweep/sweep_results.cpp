@@ -29,7 +29,7 @@ constexpr std::size_t kMostShown = 10; ///< reasons on a terminal; the files hav
 /// Columns that only some studies have.
 struct MoreColumns {
     std::vector<std::string> stages, parts;
-    bool sampled = false;
+    bool intervals = false;
     std::vector<std::optional<double>> elasticity; ///< by row; empty: bandwidth is not varied
 };
 
@@ -45,7 +45,7 @@ std::string csv_head(const StudyPlan& plan, const MoreColumns& more) {
     for (const std::string& stage : more.stages) {
         text += "," + csv_cell("stages." + stage + ".busy");
     }
-    return text + part_headings(more.parts) + (more.sampled ? sampling_headings() : "") +
+    return text + part_headings(more.parts) + (more.intervals ? interval_headings() : "") +
            (plan.aims.limits.empty() ? "" : ",within") + "\n";
 }
 
@@ -64,7 +64,7 @@ std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::siz
     text += more.elasticity.empty() ? "" : "," + csv_number(more.elasticity[r]);
     text += named_cells(row, &RunNumbers::stages, more.stages);
     text += named_cells(row, &RunNumbers::parts, more.parts) +
-            (more.sampled ? sampling_cells(row) : "");
+            (more.intervals ? interval_cells(row) : "");
     if (!plan.aims.limits.empty()) {
         text += "," + csv_cell(within_words(results.verdicts[row.config]));
     }
@@ -74,7 +74,7 @@ std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::siz
 std::string results_csv(const StudyPlan& plan, const SweepResults& results) {
     const std::vector<ComparisonRow>& rows = results.comparison.rows;
     const MoreColumns more{names_of(rows, &RunNumbers::stages), names_of(rows, &RunNumbers::parts),
-                           any_sampled(rows), elasticities(plan, results.comparison)};
+                           any_interval(rows), elasticities(plan, results.comparison)};
     std::string text = csv_head(plan, more);
     for (std::size_t r = 0; r < results.comparison.rows.size(); ++r) {
         text += csv_row(plan, results, r, more);
@@ -119,7 +119,7 @@ ordered_json run_json(const SweepResults& results, std::size_t r,
         }
     });
     put_parts(json, row);
-    put_sampling(json, row);
+    put_interval(json, row);
     json["limited_by"] = row.limited_by;
     if (!elasticity.empty()) {
         json["bandwidth_elasticity"] = number_json(elasticity[r]);

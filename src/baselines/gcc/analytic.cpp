@@ -48,6 +48,7 @@ public:
     }
     double latency() const override { return 6 * memory_.latency; }
     int pes() const override { return config_.pes(); }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.06, 0.07}; }
 
     enum Unit : std::size_t { kGrouping, kProjection, kColour, kBlending, kMemory };
     const Config& config() const { return config_; }

@@ -38,6 +38,7 @@ public:
                                                         config_.tile_area()));
     }
     int pes() const override { return config_.pes(); }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.05, 0.06}; }
     std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
                                          const TileCycles& tiles) const override {
         Work work;
@@ -80,19 +81,27 @@ TileCycles Clock::end(const CoarseTile& tile) {
     const double entries = tile.entries();
     const double batch = config.fetching.chunk;
     const double seen = vector.termination == Termination::None ? entries : tile.walked();
-    const double whole = std::floor(std::min(entries, std::ceil(seen / batch) * batch) / batch);
-    const double rest = std::min(entries, std::ceil(seen / batch) * batch) - whole * batch;
-    const auto both = [&](const auto& cycles) {
+    const double blended = std::min(entries, std::ceil(seen / batch) * batch);
+    const auto of_batches = [&](double splats, const auto& cycles) {
+        const double whole = std::floor(splats / batch);
         return whole * double(cycles(config.fetching.chunk)) +
-               double(cycles(int(std::lround(rest))));
+               double(cycles(int(std::lround(splats - whole * batch))));
     };
-    const double array =
-        both([&](int splats) { return config.cores.array.cycles(splats, config.tile_area()); });
-    const double blending = both([&](int splats) {
+    const double blending = of_batches(blended, [&](int splats) {
         return vector.coefficient_cycles(splats) +
                vector.blend_cycles(std::uint64_t{1} * splats * config.tile_area());
     });
-    TileCycles cycles = model_.front_end_cycles(tile, whole * batch + rest);
+    const auto product = [&](int splats) {
+        return config.cores.array.cycles(splats, config.tile_area());
+    };
+    // Products that are made while the last one is blended are for nothing; an array that is faster
+    // than the vector unit fills its places for them.
+    const double ahead =
+        batch *
+        (of_batches(blended, product) > blending ? 1 : 1 + config.scratchpad.product_batches);
+    const double formed = std::min(entries, blended + ahead);
+    const double array = of_batches(formed, product);
+    TileCycles cycles = model_.front_end_cycles(tile, formed);
     cycles.slots = array * config.cores.array.macs();
     cycles.fragments *= kGemmDepth;
     cycles.busy[Analytic::kArray] = array / model_.engines();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs run --what-if: the estimates of the changed designs, beside results that it leaves alone.
+#include <cmath>
+
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -57,6 +59,9 @@ TEST(WhatIf, GivesTheEstimatesOfTheChangedDesigns) {
             EXPECT_DOUBLE_EQ(before, estimate_with({}));
             EXPECT_DOUBLE_EQ(after, estimate_with(changes[c])) << changes[c].front();
             EXPECT_DOUBLE_EQ(list[c]["change"], after / before - 1);
+            const double width = 0.01 + 0.3 * std::abs(after / before - 1);
+            EXPECT_DOUBLE_EQ(list[c]["change_interval"][0], after / before - 1 - width);
+            EXPECT_DOUBLE_EQ(list[c]["change_interval"][1], after / before - 1 + width);
         }
     }
 }

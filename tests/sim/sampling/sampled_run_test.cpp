@@ -170,8 +170,8 @@ TEST(SmallRunSampledOnce, EndsWhereAnExactRunTakesNoLonger) {
     const json facts = report_in(folder / "out")["sampling"];
     EXPECT_GT(facts["reached"], 0.0032);
     const double share = number(facts, "tiles_simulated") / number(facts, "tiles");
-    EXPECT_GE(share, 0.5);
-    EXPECT_LE(share, 0.6); // by a group and the last tiles
+    EXPECT_GE(share, 0.4);
+    EXPECT_LE(share, 0.5); // by a group and the last tiles
 }
 
 TEST(SampledRunOnce, IsExactWhereTilesDependOnEachOther) {
@@ -267,9 +267,9 @@ TEST(SampledRunOnce, GivesComparisonsAndStudiesTheirIntervals) {
     const json& run = comparison["runs"][0];
     const json single = sampled_report_of("gscore-64", {"--within", "5%", "--seed", "7"});
     EXPECT_EQ(run["cycles"], single["timing"]["cycles"]);
-    EXPECT_EQ(run["sampling"]["cycles"], single["sampling"]["intervals"]["timing"]["cycles"]);
-    EXPECT_LT(run["sampling"]["share"], 0.7);
-    EXPECT_NE(read_file(folder / "compare/compare.csv").find("sampling.cycles_low"),
+    EXPECT_EQ(run["interval"]["cycles"], single["sampling"]["intervals"]["timing"]["cycles"]);
+    EXPECT_LT(run["interval"]["sampled"], 0.7);
+    EXPECT_NE(read_file(folder / "compare/compare.csv").find("interval.cycles_low"),
               std::string::npos);
 
     std::ofstream(folder / "s.yaml")
@@ -284,12 +284,12 @@ TEST(SampledRunOnce, GivesComparisonsAndStudiesTheirIntervals) {
     EXPECT_EQ(degs(sampled).code, 0);
     const json results = json::parse(read_file(folder / "sweep/results.json"));
     ASSERT_EQ(results["runs"].size(), 2U);
-    EXPECT_EQ(results["runs"][0]["sampling"], run["sampling"]);
+    EXPECT_EQ(results["runs"][0]["interval"], run["interval"]);
     // Points of a sample are not those of exact runs.
     EXPECT_EQ(degs(sweep).code, 0);
     const json exact = json::parse(read_file(folder / "sweep/results.json"));
     ASSERT_EQ(exact["runs"].size(), 2U);
-    EXPECT_FALSE(exact["runs"][0].contains("sampling"));
+    EXPECT_FALSE(exact["runs"][0].contains("interval"));
     EXPECT_NE(exact["runs"][0]["cycles"], results["runs"][0]["cycles"]);
 }
 

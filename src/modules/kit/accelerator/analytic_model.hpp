@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,12 @@ struct PreparationCycles {
     double binning_bytes = 0; ///< to and from its SRAM
 };
 
+/// How far simulated cycles lie from a model's estimate, relative to it: from `below` under it to
+/// `above` over it on views whose work many tiles carry and one kind of unit limits.
+struct EstimateErrors {
+    double below = 0, above = 0;
+};
+
 /// One design: kinds of units, and how to work out their cycles.
 class AnalyticModel {
 public:
@@ -109,6 +116,8 @@ public:
                                                  const PreparationCycles& before,
                                                  const TileCycles& tiles) const = 0;
     virtual const MainMemoryConfig& main_memory() const = 0;
+    /// Measured against simulations (docs/analytic.md); empty: nobody has.
+    virtual std::optional<EstimateErrors> errors() const { return {}; }
 };
 
 } // namespace degs

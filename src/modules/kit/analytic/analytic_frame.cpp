@@ -15,7 +15,7 @@ namespace {
 /// Entries of lists and rows of splats that are looked at, which bounds the time: some 20 ns each.
 constexpr double kVisits = 300e3;
 /// A view of few and long lists exceeds kVisits rather than rest on fewer tiles than these.
-constexpr double kLeastTiles = 10;
+constexpr double kLeastTiles = 32;
 /// Chains of tiles that are followed one after the other; blocks of work for the host's processors.
 constexpr std::size_t kChains = 2;
 
@@ -136,6 +136,27 @@ std::vector<ScheduledTile> all_tiles(const std::vector<Listed>& tiles,
     return result;
 }
 
+/// How many tiles of equal times would have the same mean and scatter.
+double carrying(const std::vector<ScheduledTile>& tiles) {
+    double sum = 0, squares = 0;
+    for (const ScheduledTile& tile : tiles) {
+        sum += tile.cycles.time;
+        squares += tile.cycles.time * tile.cycles.time;
+    }
+    return squares == 0 ? 0 : sum * sum / squares;
+}
+
+/// What is added to the errors of a model: where few tiles carry the work, how they come one after
+/// the other decides; where no kind of unit is busy all the time, units overlap better than a tile
+/// alone shows. Measured for all accelerators together (docs/analytic.md).
+CycleInterval interval_of(const AnalyticFrame& frame, const EstimateErrors& errors) {
+    constexpr double kFewBelow = 0.05, kFewAbove = 0.15, kIdleBelow = 0.26;
+    const double few = frame.carrying_tiles > 0 ? 1 / std::sqrt(frame.carrying_tiles) : 1;
+    const double below = errors.below + kFewBelow * few + kIdleBelow * (1 - frame.busiest);
+    const double above = errors.above + kFewAbove * few;
+    return {frame.cycles * std::exp(-below), frame.cycles * std::exp(above)};
+}
+
 /// Pixels of the tiles that list no splat.
 double background_pixels(const FrameWorkload& frame) {
     const TileGrid grid = frame.grid();
@@ -190,6 +211,7 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     result.tiles = tiles.size();
     result.drawn = chosen.size();
     result.rows_apart = apart;
+    result.carrying_tiles = carrying(scheduled);
     result.preparation = before.time;
     const double rendering = schedule(model, scheduled, background.busy);
     result.cycles = before.time + model.latency() + rendering;
@@ -209,6 +231,10 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
         }
     }
     result.lower = longest_before + longest;
+    result.busiest = rendering == 0 ? 1 : std::min(1.0, longest / rendering);
+    if (const std::optional<EstimateErrors> errors = model.errors()) {
+        result.interval = interval_of(result, *errors);
+    }
     return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,12 @@
 #include "modules/kit/job/tile_order.hpp"
 
 namespace degs {
+
+/// Cycles between which a simulation lies on nine views in ten.
+struct CycleInterval {
+    double low = 0, high = 0;
+};
+constexpr double kEstimateConfidence = 0.9;
 
 /// The time of a frame, bounded and estimated.
 struct AnalyticFrame {
@@ -28,6 +35,9 @@ struct AnalyticFrame {
     std::size_t tiles = 0;                ///< that list a splat
     std::size_t drawn = 0;                ///< of them, the tiles that the estimate rests on
     int rows_apart = 1;                   ///< one block of their rows in so many
+    double carrying_tiles = 0; ///< (sum of the tiles' times)^2 / sum of their squares: few carry it
+    double busiest = 0;        ///< share of the rendering cycles that `limited_by` is busy
+    std::optional<CycleInterval> interval; ///< of the cycles; empty if the model was not measured
 };
 
 /// Renders a sample of the tiles coarsely, see CoarseTile, which takes some milliseconds on any

@@ -16,18 +16,22 @@
 
 namespace degs {
 
-/// Memory as a rate and a latency, which is what `memory.model: bus` is. The rate of LPDDR5 is that
-/// of its bus: refreshes, activations and turnarounds are left out. Its latency is that of a read
-/// from a closed bank.
+/// Memory as a rate and a latency, which is what `memory.model: bus` is. Refreshes, activations and
+/// turnarounds leave a share of the bus of LPDDR5, and a read waits for others as long as a read
+/// from a closed bank takes; both shares are measured (docs/analytic.md).
 struct MemoryRate {
+    static constexpr double kLpddr5Share = 0.7, kLpddr5Waiting = 2;
     double bytes_per_cycle = 0, latency = 0; ///< latency in cycles
     MemoryRate(const MainMemoryConfig& memory, double clock_ghz)
-        : bytes_per_cycle(memory.peak_gb_per_s() / clock_ghz),
+        : bytes_per_cycle(share(memory) * memory.peak_gb_per_s() / clock_ghz),
           latency(latency_ns(memory) * clock_ghz) {}
+    static double share(const MainMemoryConfig& memory) {
+        return memory.model == MemoryModel::Lpddr5 ? kLpddr5Share : 1;
+    }
     static double latency_ns(const MainMemoryConfig& memory) {
         const dram::Timing& timing = memory.lpddr5.timing;
         return memory.model == MemoryModel::Lpddr5
-                   ? timing.ck_ns() * (timing.rcd + timing.read_latency())
+                   ? kLpddr5Waiting * timing.ck_ns() * (timing.rcd + timing.read_latency())
                    : memory.latency_ns;
     }
     double cycles(double bytes) const { return bytes / bytes_per_cycle; }
