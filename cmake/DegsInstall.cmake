@@ -2,6 +2,7 @@
 # The public headers in include/degs, static libraries, configurations, a CMake package and a
 # pkg-config file. One component, so that a build without the program can be installed, too:
 #     cmake --install BUILD --prefix PREFIX --component degs
+# DegsInstallKit.cmake installs what accelerators from outside need beyond it.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/degs)
 

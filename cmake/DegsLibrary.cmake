@@ -8,7 +8,7 @@ target_compile_features(degs_flags INTERFACE cxx_std_17)
 # popcnt, SSE4) saves 10 % of a run and has no fused multiply-add. Wider lanes are chosen at run
 # time (*_lanes.cpp). slp-vectorize: g++ 12.2 drops the rounding of neighbouring double -> float
 # -> double conversions. psabi: vector lanes are passed between our own functions only, all compiled
-# with the same flags.
+# with the same flags. What else is warned of concerns this project's sources, not those of others.
 set(DEGS_ARCH "" CACHE STRING "Value of -march; empty: x86-64-v2 on x86-64, else the compiler's default")
 if(DEGS_ARCH)
     target_compile_options(degs_flags INTERFACE -march=${DEGS_ARCH})
@@ -16,16 +16,19 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     target_compile_options(degs_flags INTERFACE -march=x86-64-v2)
 endif()
 target_compile_options(degs_flags INTERFACE -ffp-contract=off -fno-tree-slp-vectorize
-                       -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-                       -Wnon-virtual-dtor -Wno-psabi $<$<CXX_COMPILER_ID:Clang>:-Wno-overloaded-virtual>
-                       $<$<BOOL:${DEGS_WARNINGS_AS_ERRORS}>:-Werror>)
+                       "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Wno-sign-conversion>"
+                       $<BUILD_INTERFACE:-Wnon-virtual-dtor> -Wno-psabi
+                       $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:Clang>:-Wno-overloaded-virtual>>
+                       $<BUILD_INTERFACE:$<$<BOOL:${DEGS_WARNINGS_AS_ERRORS}>:-Werror>>)
 target_include_directories(degs_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
 
 # What src has inside, for those who build on it: this project's program and tests, and accelerators
 # from outside. Targets that link a room see the public headers of include/degs alone.
+set(DEGS_KIT_INCLUDEDIR ${CMAKE_INSTALL_INCLUDEDIR}/degs-kit) # where the package has these headers
 add_library(degs_sources INTERFACE)
 add_library(degs::sources ALIAS degs_sources)
-target_include_directories(degs_sources INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_include_directories(degs_sources INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                           $<INSTALL_INTERFACE:${DEGS_KIT_INCLUDEDIR}>)
 
 # degs_compiled_fast(<target>): for sources in which a run spends next to none of its time, such as
 # those that read and write text. -Og compiles them in two thirds of the time of -O2; the sanitizers

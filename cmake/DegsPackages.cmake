@@ -32,7 +32,12 @@ set(CPACK_DEBIAN_DEGS_DESCRIPTION "SystemC/TLM model of the DeGS accelerator, as
  Headers, static libraries, the driver and examples for platforms in SystemC.")
 
 if(TARGET degs_program)
-    list(APPEND CPACK_COMPONENTS_ALL program)
+    list(APPEND CPACK_COMPONENTS_ALL kit program)
+    set(CPACK_DEBIAN_KIT_PACKAGE_NAME libdegs-kit-dev)
+    set(CPACK_DEBIAN_KIT_PACKAGE_SECTION libdevel)
+    set(CPACK_DEBIAN_KIT_PACKAGE_DEPENDS "libdegs-dev ${same_version}, libxxhash-dev, libjemalloc-dev, libpugixml-dev")
+    set(CPACK_DEBIAN_KIT_DESCRIPTION "SystemC/TLM model of the DeGS accelerator, for accelerators of one's own
+ Headers of its blocks and the program as a library, to which an accelerator is added.")
     set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME degs)
     set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
     set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "degs-common ${same_version}")

@@ -15,7 +15,7 @@ quietly cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/made"
 mkdir "$work/debs"
 mv "$work"/made/*.deb "$work/debs"
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:[A-Z]*=//p' "$build/CMakeCache.txt")
-names=(degs degs-common libdegs-dev python3-degs)
+names=(degs degs-common libdegs-dev libdegs-kit-dev python3-degs)
 for name in "${names[@]}"; do
     deb=("$work/debs/${name}_${version}_"*.deb)
     [[ -f ${deb[0]} ]] || { echo "there is no package $name of version $version:"; ls "$work/debs"; exit 1; }
@@ -34,17 +34,28 @@ field() { dpkg-deb -f "$work/debs/$1"_*.deb "$2"; }
 for library in libc6 libhwy1 libjemalloc2 libsystemc libopenexr-3 libtinygltf libyaml-cpp0; do
     [[ $(field degs Depends) == *"$library"* ]] || { echo "degs does not depend on $library: $(field degs Depends)"; exit 1; }
 done
-# The library asks for what the CMake package of the build looks for.
-sed -n 's/^find_dependency(\([A-Za-z_-]*\).*/\1/p; s/.*foreach(library \(.*\))/\1/p' "$build/degsConfig.cmake" |
-    tr ' ' '\n' | tr '[:upper:]' '[:lower:]' | grep -v threads | cat - <(printf '%s\n' systemc glm) | while read -r needed; do
-    [[ $(field libdegs-dev Depends | tr -d -) == *"${needed//[-_]/}"* ]] || { echo "libdegs-dev does not depend on $needed"; exit 1; }
-done
+# The libraries ask for what the CMake package of the build looks for, indented for the component.
+# looked_for INDENT: the names.
+looked_for() {
+    sed -n "s/^$1find_dependency(\([A-Za-z_-]*\).*/\1/p; s/^$1foreach(library \(.*\))/\1/p" "$build/degsConfig.cmake" |
+        tr ' ' '\n' | tr '[:upper:]' '[:lower:]' | grep -v threads
+}
+# depends PACKAGE: whether it depends on what is read.
+depends() {
+    while read -r needed; do
+        [[ $(field "$1" Depends | tr -d -) == *"${needed//[-_]/}"* ]] || { echo "$1 does not depend on $needed"; exit 1; }
+    done
+}
+{ looked_for '' && printf '%s\n' systemc glm; } | depends libdegs-dev
+[[ $(looked_for '        ' | wc -l) -ge 3 ]] || { echo "degsConfig.cmake looks for nothing more for the component kit"; exit 1; }
+looked_for '        ' | depends libdegs-kit-dev
+[[ $(field libdegs-kit-dev Depends) == *"libdegs-dev (= $version)"* ]]
 [[ $(field python3-degs Recommends) == python3-tqdm ]]
 
 # Every file is in one package, and those that the components install are all there.
 twice=$(sort "$work"/*.files | uniq -d)
 [[ ! $twice ]] || { echo "in several packages:" "$twice"; exit 1; }
-for component in degs program python; do
+for component in degs kit program python; do
     quietly cmake --install "$build" --prefix "$work/prefix/usr" --component "$component"
 done
 (cd "$work/prefix" && find usr ! -type d) | sed 's,^usr/share/degs/python/,usr/lib/python3/dist-packages/,' | sort >"$work/installed"

@@ -15,8 +15,8 @@ compiler=$2
 program=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# quietly LOG COMMAND...: shows what the command says only if it fails.
-quietly() { "${@:2}" >"$work/$1.log" 2>&1 || { cat "$work/$1.log"; return 1; }; }
+# shellcheck source=tests/packaging/functions.sh
+. "$(dirname "${BASH_SOURCE[0]}")/functions.sh"
 
 quietly install cmake --install "$build" --prefix "$work/prefix" --component degs
 quietly configure cmake -S "$work/prefix/share/degs/examples/riscv" -B "$work/riscv" \

@@ -21,18 +21,9 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 embedded=$(mktemp -d "$build-embedded.XXXXXX") # beside BUILD, so that relative paths are those of its objects, too
 trap 'rm -rf "$work" "$embedded"' EXIT
-cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+# shellcheck source=tests/packaging/functions.sh
+. "$here/functions.sh"
 sources=$(cached CMAKE_HOME_DIRECTORY)
-
-# quietly LOG COMMAND...: shows what the command says only if it fails.
-quietly() { "${@:2}" >"$work/$1.log" 2>&1 || { cat "$work/$1.log"; return 1; }; }
-# seconds LIMIT COMMAND...: runs it, and fails if it takes more processor time.
-seconds() {
-    local TIMEFORMAT='%U %S' taken
-    taken=$({ time "${@:2}" >&2; } 2>&1 | awk 'END { print $1 + $2 }')
-    awk -v t="$taken" -v l="$1" 'BEGIN { exit !(t <= l) }' || { echo "took $taken s of a processor: $2"; return 1; }
-    echo "$taken"
-}
 
 quietly install cmake --install "$build" --prefix "$work/first" --component degs
 mv "$work/first" "$work/prefix"

@@ -14,7 +14,8 @@ if [[ -z $prefix ]]; then
     echo "DEGS_OTHER_SYSTEMC names no other SystemC, so nothing has been built with one"
     exit 77
 fi
-cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+# shellcheck source=tests/packaging/functions.sh
+. "$(dirname "${BASH_SOURCE[0]}")/functions.sh"
 other=$build-other-systemc
 cmake -S "$(cached CMAKE_HOME_DIRECTORY)" -B "$other" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g0" \
     -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_COMPILER_LAUNCHER="$(cached DEGS_CCACHE)" -DCMAKE_UNITY_BUILD=ON \
