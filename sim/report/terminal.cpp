@@ -128,7 +128,34 @@ std::string memory_line(const AcceleratorResult& run) {
            (run.row_hit_rate ? kDot + ("row hits " + percent(*run.row_hit_rate, 0) + " %") : "");
 }
 
-/// The buffers that came nearest to their capacity; empty if the design reports none with cells.
+/// Bytes of cells that were never filled, in all rings of the buffer.
+std::uint64_t unused_bytes(const BufferUse& buffer) {
+    return buffer.depth == 0 || buffer.bytes <= 0
+               ? 0
+               : static_cast<std::uint64_t>(buffer.bytes) * (buffer.depth - buffer.high_water) /
+                     buffer.depth;
+}
+
+/// "; never filled: 28.3 KB of packing_buffer", the most first; empty if all cells were filled.
+std::string unused_words(const AcceleratorResult& run) {
+    std::vector<std::pair<std::uint64_t, std::string>> unused;
+    for (const BufferUse& buffer : run.buffers) {
+        if (const std::uint64_t bytes = unused_bytes(buffer); bytes > 0) {
+            unused.emplace_back(bytes, buffer.name);
+        }
+    }
+    std::stable_sort(unused.begin(), unused.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::string words;
+    for (const auto& [bytes, name] : unused) {
+        words += (words.empty() ? "; never filled: " : ", ") + three_digits(ratio_of(bytes, 1024)) +
+                 " KB of " + name;
+    }
+    return words;
+}
+
+/// The buffers that came nearest to their capacity, and what of all was never filled; empty if the
+/// design reports none with cells.
 std::string buffers_line(const AcceleratorResult& run) {
     constexpr std::size_t kMostBuffers = 4;
     std::vector<const BufferUse*> buffers;
@@ -146,7 +173,7 @@ std::string buffers_line(const AcceleratorResult& run) {
         line += (line.empty() ? "fullest " : kDot) + buffer->name + " " +
                 grouped(buffer->high_water) + " of " + grouped(buffer->depth);
     }
-    return line.empty() ? line : line + " cells";
+    return line.empty() ? line : line + " cells" + unused_words(run);
 }
 
 /// Per frame, with the blocks that take the most.

@@ -32,7 +32,7 @@ public:
                config_.engines.row_pe_latency;
     }
     int pes() const override { return config_.pes(); }
-    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.09, 0.14}; }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.03, 0.14}; }
     std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
                                          const TileCycles& tiles) const override {
         Work work;

@@ -38,7 +38,7 @@ public:
     }
     double latency() const override { return 4 * memory_latency() + config_.array.pipeline_cycles; }
     int pes() const override { return config_.pes(); }
-    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.06, 0.05}; }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.07, 0.06}; }
     std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
                                          const TileCycles& tiles) const override {
         std::vector<cost::Activity> all = front().activity(before, tiles);

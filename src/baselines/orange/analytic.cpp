@@ -102,7 +102,7 @@ TileCycles Clock::end(const CoarseTile& tile) {
     const double formed = std::min(entries, blended + ahead);
     const double array = of_batches(formed, product);
     TileCycles cycles = model_.front_end_cycles(tile, formed);
-    cycles.slots = array * config.cores.array.macs();
+    cycles.slots = formed * config.tile_area() * kGemmDepth;
     cycles.fragments *= kGemmDepth;
     cycles.busy[Analytic::kArray] = array / model_.engines();
     cycles.busy[Analytic::kVector] = blending / model_.engines();

@@ -41,7 +41,7 @@ public:
     int engines() const override { return config_.all_streams(); }
     double latency() const override;
     int pes() const override { return config_.pes(); }
-    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.05, 0.07}; }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.06, 0.07}; }
     std::vector<cost::Activity> activity(const FrameWorkload& frame,
                                          const PreparationCycles& before,
                                          const TileCycles& tiles) const override;

@@ -90,7 +90,7 @@ TEST(Estimates, CarryTheirIntervals) {
     // docs/analytic.md#intervals
     const double tiles = single["sample"]["carrying_tiles"], share = single["limited_share"];
     const double few = 1 / std::sqrt(tiles);
-    EXPECT_NEAR(std::log(cycles / low), 0.05 + 0.05 * few + 0.26 * (1 - share), 1e-6);
+    EXPECT_NEAR(std::log(cycles / low), 0.06 + 0.05 * few + 0.15 * (1 - share), 1e-6);
     EXPECT_NEAR(std::log(high / cycles), 0.07 + 0.15 * few, 1e-6);
 }
 

@@ -73,6 +73,23 @@ TEST(Summary, NamesTheBuffersThatCameNearestToTheirCapacity) {
                 HasSubstr("fullest small 4 of 4 · large 500 of 1 000 cells"));
 }
 
+// A quarter of 4096 bytes and nine tenths of 1024; cells without bytes are not named.
+TEST(Summary, NamesTheBytesThatWereNeverFilled) {
+    RunResult result = two_frames();
+    for (const auto& [name, bytes, depth, most] :
+         {std::tuple("less", 1024, 10, 1), std::tuple("most", 4096, 4, 3),
+          std::tuple("full", 500, 4, 4), std::tuple("cells", 0, 8, 2)}) {
+        BufferUse buffer;
+        buffer.name = name;
+        buffer.bytes = bytes;
+        buffer.depth = depth;
+        buffer.high_water = most;
+        result.accelerator.buffers.push_back(buffer);
+    }
+    EXPECT_THAT(summary(result, "i.exr"),
+                HasSubstr(" cells; never filled: 1.00 KB of most, 0.899 KB of less\n"));
+}
+
 TEST(Summary, SharesOfTheEnergyHaveLeakage) {
     const RunResult result = two_frames();
     const auto& blocks = result.accelerator.energy.blocks();

@@ -15,7 +15,7 @@ namespace {
 /// Entries of lists and rows of splats that are looked at, which bounds the time: some 20 ns each.
 constexpr double kVisits = 300e3;
 /// A view of few and long lists exceeds kVisits rather than rest on fewer tiles than these.
-constexpr double kLeastTiles = 32;
+constexpr double kLeastTiles = 24;
 /// Chains of tiles that are followed one after the other; blocks of work for the host's processors.
 constexpr std::size_t kChains = 2;
 
@@ -150,7 +150,7 @@ double carrying(const std::vector<ScheduledTile>& tiles) {
 /// the other decides; where no kind of unit is busy all the time, units overlap better than a tile
 /// alone shows. Measured for all accelerators together (docs/analytic.md).
 CycleInterval interval_of(const AnalyticFrame& frame, const EstimateErrors& errors) {
-    constexpr double kFewBelow = 0.05, kFewAbove = 0.15, kIdleBelow = 0.26;
+    constexpr double kFewBelow = 0.05, kFewAbove = 0.15, kIdleBelow = 0.15;
     const double few = frame.carrying_tiles > 0 ? 1 / std::sqrt(frame.carrying_tiles) : 1;
     const double below = errors.below + kFewBelow * few + kIdleBelow * (1 - frame.busiest);
     const double above = errors.above + kFewAbove * few;
