@@ -7,8 +7,8 @@ from measuring.points import FIVE, run
 from measuring.tables import csv_text, markdown, table
 
 PAGE = "docs/sampling.md"
-# Designs with the heights of their frames, as some have too few tiles at 1080p, and the keys that take out what couples
-# the tiles of others.
+# Designs with the heights of their frames, as some have too few tiles at 1080p, and the
+# keys that take out what couples the tiles of others.
 SAMPLED = {"degs-16": ("1080p",), "degs@32": ("1080p",), "degs-64": ("1080p",), "degs-256": ("4k",),
            "gscore-16": ("1080p",), "gscore-64": ("4k",), "gscore-256": ("4k",), "gcc-16": ("4k",),
            "gcc-64": ("4k", "view_size=32"), "gbu-16": ("1080p", "reuse_cache.bytes=0"),

@@ -99,8 +99,8 @@ TEST(StoppingRule, StopsWhereTheIntervalIsNarrowEnough) {
     request.within = 0.01;
     EXPECT_EQ(judge_sample(request, 0.1, 0.0099, true), Verdict::Enough);
     EXPECT_EQ(judge_sample(request, 0.1, 0.012, true), Verdict::More);
-    EXPECT_EQ(judge_sample(request, 0.49, 0.06, true), Verdict::More);
-    EXPECT_EQ(judge_sample(request, 0.5, 0.0101, true), Verdict::Spent);
+    EXPECT_EQ(judge_sample(request, 0.39, 0.06, true), Verdict::More);
+    EXPECT_EQ(judge_sample(request, 0.4, 0.0101, true), Verdict::Spent);
     EXPECT_EQ(judge_sample(request, 0.1, 0.0101, false), Verdict::Spent);
 }
 
