@@ -143,5 +143,5 @@ def estimate_changes():
     rows = [("below 5 %", [row for row in found if row[4] < 5]), ("5 % and more", [row for row in found if row[4] >= 5]),
             ("all", found)]
     return markdown(["estimated gain", "changes", "intervals that hold"],
-                    [[name, len(own), sum(abs(row[4] - row[5]) <= 1 + 0.3 * abs(row[4]) for row in own)]
+                    [[name, len(own), sum(row[6][0] <= row[5] <= row[6][1] for row in own)]
                      for name, own in rows])

@@ -17,14 +17,14 @@ def designs():
 
 
 def pairs():
-    """[design, changed keys, scene, change, gain that was named, gain of a run], in %."""
+    """[design, changed keys, scene, change, gain that was named, gain of a run, interval], in %."""
     before = yield {(name, keys, scene): run(name, scene, VIEW, *keys) for name, keys in designs() for scene in FIVE}
-    named = {(*view, each["change"]): each["gain"] for view, report in before.items() if "gains" in report
+    named = {(*view, each["change"]): each for view, report in before.items() if "gains" in report
              for each in report["gains"]}
     after = yield {(name, keys, scene, change): run(name, scene, VIEW, *keys, *change.split(","))
                    for name, keys, scene, change in named}
-    return [[*key[:3], key[3], 100 * gain, 100 * (1 - after[key].cycles / before[key[:3]].cycles)]
-            for key, gain in named.items()]
+    return [[*key[:3], key[3], 100 * each["gain"], 100 * (1 - after[key].cycles / before[key[:3]].cycles),
+             [100 * end for end in each["interval"]]] for key, each in named.items()]
 
 
 @table("docs/loss-gains.csv")
@@ -32,7 +32,7 @@ def loss_gains_csv():
     found = yield from pairs()
     return csv_text(["design", "keys", "scene", "change", "named_percent", "measured_percent"],
                     [[name, " ".join(keys), scene, change, f"{named:.2f}", f"{real:.2f}"]
-                     for name, keys, scene, change, named, real in found])
+                     for name, keys, scene, change, named, real, _ in found])
 
 
 @table("docs/timeline.md")

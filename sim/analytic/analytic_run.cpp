@@ -62,8 +62,9 @@ std::string interval_words(const AnalyticFrame& frame) {
                             : "How far simulations lie from estimates of this accelerator has not "
                               "been measured.";
     if (frame.carrying_tiles < kFewTiles) {
-        words += " About " + cycles_words(std::ceil(frame.carrying_tiles)) + " of " +
-                 std::to_string(frame.tiles) + " tiles carry the work, which makes it less sure.";
+        words += " The work lies in few tiles, as if about " +
+                 cycles_words(std::ceil(frame.carrying_tiles)) + " of " +
+                 std::to_string(frame.tiles) + " shared it, which makes the estimate less sure.";
     }
     return words;
 }

@@ -50,9 +50,6 @@ public:
 
     /// Half of the interval over the value, as far as the sample has come.
     double relative_half_width(const std::string& path) const;
-    /// The share of the memory's peak that the frame uses, as far as the sample has come; 0 if the
-    /// memory is unlimited.
-    double memory_use() const { return frame_without(totals_.groups()).memory_utilization; }
     /// The estimated result of a frame with so many tiles that list a splat.
     AcceleratorResult whole_frame(std::size_t tiles) const;
     /// The intervals of all numbers of the report from `timing` to `dram`, and of `energy`.

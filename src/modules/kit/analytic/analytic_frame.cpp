@@ -136,7 +136,8 @@ std::vector<ScheduledTile> all_tiles(const std::vector<Listed>& tiles,
     return result;
 }
 
-/// How many tiles of equal times would have the same mean and scatter.
+/// (Sum of the times)^2 / sum of their squares: the number of tiles if all times are equal, and 1
+/// if one tile takes all the time.
 double carrying(const std::vector<ScheduledTile>& tiles) {
     double sum = 0, squares = 0;
     for (const ScheduledTile& tile : tiles) {

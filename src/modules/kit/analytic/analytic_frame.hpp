@@ -20,7 +20,7 @@ constexpr double kEstimateConfidence = 0.9;
 struct AnalyticFrame {
     double cycles = 0;      ///< the estimate
     double preparation = 0; ///< of it, until the lists are complete
-    double lower = 0;       ///< no design with these units and rates takes less
+    double lower = 0;       ///< with these units and rates (of LPDDR5: the expected one) at least
     double upper = 0;       ///< if no two kinds of units worked at the same time
     double utilization = 0; ///< fragments over PEs x blending cycles
     double bytes = 0;       ///< moved to and from memory
@@ -35,7 +35,7 @@ struct AnalyticFrame {
     std::size_t tiles = 0;                ///< that list a splat
     std::size_t drawn = 0;                ///< of them, the tiles that the estimate rests on
     int rows_apart = 1;                   ///< one block of their rows in so many
-    double carrying_tiles = 0; ///< (sum of the tiles' times)^2 / sum of their squares: few carry it
+    double carrying_tiles = 0; ///< tiles of equal times that would scatter as the tiles do
     double busiest = 0;        ///< share of the rendering cycles that `limited_by` is busy
     std::optional<CycleInterval> interval; ///< of the cycles; empty if the model was not measured
 };
