@@ -94,6 +94,19 @@ void collect_recording(AcceleratorResult& result, RenderJob& job, std::vector<Ti
     }
 }
 
+/// Adds the FIFOs below a module whose cells neither a buffer of the results nor the costs of a unit
+/// stand for.
+void collect_unbilled(std::vector<std::string>& unbilled, const sc_core::sc_object& module) {
+    for (const sc_core::sc_object* child : module.get_child_objects()) {
+        const auto* fifo = dynamic_cast<const FifoBase*>(child);
+        if (fifo != nullptr && !fifo->is_billed()) {
+            unbilled.push_back(std::string(fifo->fifo_name()) + " of " +
+                               std::to_string(fifo->depth()) + " cells");
+        }
+        collect_unbilled(unbilled, *child);
+    }
+}
+
 void require_equal(const std::string& law, std::uint64_t left, std::uint64_t right) {
     if (left != right) {
         throw std::logic_error("the model is broken, " + law + ": " + std::to_string(left) +
@@ -142,6 +155,7 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config, FrameSource f
     result.tiles_listed = job.tiles.size();
     result.stopped = time.clock.ceil(sc_core::sc_time_stamp());
     engine->collect(result);
+    collect_unbilled(result.unbilled, *engine);
     if (views > 1) {
         group_views(result, views);
     }
@@ -162,6 +176,12 @@ void check_result(const AcceleratorResult& result) {
                                std::to_string(result.stopped) + " and " +
                                std::to_string(result.tiles) + " of " +
                                std::to_string(result.tiles_listed) + " tiles are finished");
+    }
+    if (!result.unbilled.empty()) {
+        throw std::logic_error("the model is incomplete, no buffer of its results stands for " +
+                               result.unbilled.front() +
+                               "; use_of() and add_buffer() list it, and set_billed() says that "
+                               "the costs of a unit include it");
     }
     for (const Conservation& c : result.conservation) {
         require_equal(c.law, c.left, c.right);

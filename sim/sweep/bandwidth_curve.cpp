@@ -8,6 +8,8 @@
 #include <set>
 #include <tuple>
 
+#include "sim/simulation/what_if.hpp"
+
 namespace degs::sim {
 namespace {
 
@@ -129,32 +131,59 @@ std::vector<MemoryLine> lines_of(const StudyPlan& plan, const Comparison& compar
     return lines;
 }
 
-/// Percent that 10 % more bandwidth gain, from the slope between two points.
-double gain_between(const ComparisonRow& before, const ComparisonRow& after) {
-    const double slope =
-        std::log(*after.measures[Measure::LatencyMs] / *before.measures[Measure::LatencyMs]) /
-        std::log(bandwidth_of(after) / bandwidth_of(before));
+/// Percent that 10 % more bandwidth gain, from the slope between two points of which the one with
+/// more bandwidth takes `ratio` of the other's time.
+double gain_of(double ratio, const ComparisonRow& before, const ComparisonRow& after) {
+    const double slope = std::log(ratio) / std::log(bandwidth_of(after) / bandwidth_of(before));
     return 100 * (std::pow(1.1, -slope) - 1);
 }
 
-std::optional<double> elasticity_at(const Comparison& comparison, const MemoryLine& line,
-                                    std::size_t i) {
+Elasticity elasticity_between(const ComparisonRow& before, const ComparisonRow& after) {
+    const double ratio =
+        *after.measures[Measure::LatencyMs] / *before.measures[Measure::LatencyMs];
+    Elasticity elasticity{gain_of(ratio, before, after)};
+    if (!before.cycles_low && !after.cycles_low) {
+        return elasticity;
+    }
+    double least = 0, most = 0; // of the ratio
+    if (before.fidelity == "analytic" && after.fidelity == "analytic") {
+        // A change of many times its size is one of its logarithm.
+        const double width = change_half_width(std::log(ratio));
+        least = ratio * std::exp(-width);
+        most = ratio * std::exp(width);
+    } else {
+        const auto cycles = [](const ComparisonRow& row) { return *row.measures[Measure::Cycles]; };
+        const double clock = ratio * cycles(before) / cycles(after);
+        least = clock * after.cycles_low.value_or(cycles(after)) /
+                before.cycles_high.value_or(cycles(before));
+        most = clock * after.cycles_high.value_or(cycles(after)) /
+               before.cycles_low.value_or(cycles(before));
+    }
+    elasticity.low = gain_of(most, before, after);
+    elasticity.high = gain_of(least, before, after);
+    return elasticity;
+}
+
+std::optional<Elasticity> elasticity_at(const Comparison& comparison, const MemoryLine& line,
+                                        std::size_t i) {
     if (i == 0 || i + 1 >= line.rows.size()) {
         return {};
     }
-    return gain_between(comparison.rows[line.rows[i - 1]], comparison.rows[line.rows[i + 1]]);
+    return elasticity_between(comparison.rows[line.rows[i - 1]],
+                              comparison.rows[line.rows[i + 1]]);
 }
 
 /// Empty where even the largest bandwidth gains more, or the smallest one no more.
 std::optional<double> enough_of(const std::vector<BandwidthPoint>& points) {
     constexpr double kLittle = 1; // percent
     for (std::size_t i = points.size(); i-- > 1;) {
-        const std::optional<double>&here = points[i - 1].elasticity, &next = points[i].elasticity;
-        if (here && *here >= kLittle) {
+        const std::optional<Elasticity>&here = points[i - 1].elasticity,
+              &next = points[i].elasticity;
+        if (here && here->gain >= kLittle) {
             if (!next) {
                 return {};
             }
-            const double part = (*here - kLittle) / (*here - *next);
+            const double part = (here->gain - kLittle) / (here->gain - next->gain);
             return points[i - 1].gb_per_s *
                    std::pow(points[i].gb_per_s / points[i - 1].gb_per_s, part);
         }
@@ -180,10 +209,10 @@ BandwidthPoint point_of(const ComparisonRow& row) {
 
 } // namespace
 
-std::vector<std::optional<double>> elasticities(const StudyPlan& plan,
-                                                const Comparison& comparison) {
+std::vector<std::optional<Elasticity>> elasticities(const StudyPlan& plan,
+                                                    const Comparison& comparison) {
     const std::vector<MemoryLine> lines = lines_of(plan, comparison);
-    std::vector<std::optional<double>> list(lines.empty() ? 0 : comparison.rows.size());
+    std::vector<std::optional<Elasticity>> list(lines.empty() ? 0 : comparison.rows.size());
     for (const MemoryLine& line : lines) {
         for (std::size_t i = 0; i < line.rows.size(); ++i) {
             list[line.rows[i]] = elasticity_at(comparison, line, i);

@@ -19,18 +19,25 @@ constexpr double kUnlimitedGbPerS = 1e5;
 /// are linked with it change along, too. All other keys, and the model of the memory, are the same
 /// in all of its points.
 
-/// What 10 % more bandwidth gains in percent, by row: by interpolation between the neighbouring
+/// What 10 % more bandwidth gains, percent.
+struct Elasticity {
+    double gain = 0;
+    /// 95 % interval if a neighbour was sampled, 90 % if both were estimated; empty: exact runs.
+    std::optional<double> low{}, high{};
+};
+
+/// The elasticities of the rows: by interpolation between the neighbouring
 /// points of the same design in the logarithms of bandwidth and latency, and empty at the ends.
 /// Without any entry if the study does not vary the bandwidth, and empty in a line that has two
 /// latencies at one bandwidth, because it is no function of it.
-std::vector<std::optional<double>> elasticities(const StudyPlan& plan,
+std::vector<std::optional<Elasticity>> elasticities(const StudyPlan& plan,
                                                 const Comparison& comparison);
 
 /// One point of a curve.
 struct BandwidthPoint {
     double gb_per_s = 0, latency_ms = 0;
     std::optional<double> preprocessing_ms, blending_ms;
-    std::optional<double> elasticity; ///< as elasticities()
+    std::optional<Elasticity> elasticity; ///< as elasticities()
 };
 
 /// A design on a view, by bandwidth.

@@ -30,7 +30,28 @@ constexpr std::size_t kMostShown = 10; ///< reasons on a terminal; the files hav
 struct MoreColumns {
     std::vector<std::string> stages, parts;
     bool intervals = false;
-    std::vector<std::optional<double>> elasticity; ///< by row; empty: bandwidth is not varied
+    std::vector<std::optional<Elasticity>> elasticity; ///< by row; empty: bandwidth is not varied
+
+    /// With intervals, those of elasticities, too.
+    std::string elasticity_headings() const {
+        return elasticity.empty() ? ""
+               : intervals        ? ",bandwidth_elasticity,bandwidth_elasticity.low,"
+                                    "bandwidth_elasticity.high"
+                                  : ",bandwidth_elasticity";
+    }
+    std::string elasticity_cells(std::size_t r) const {
+        if (elasticity.empty()) {
+            return "";
+        }
+        const std::optional<Elasticity>& here = elasticity[r];
+        const auto cell = [](const std::optional<double>& value) {
+            return "," + csv_number(value);
+        };
+        return cell(here ? std::optional(here->gain) : std::nullopt) +
+               (intervals ? cell(here ? here->low : std::nullopt) +
+                                cell(here ? here->high : std::nullopt)
+                          : "");
+    }
 };
 
 std::string csv_head(const StudyPlan& plan, const MoreColumns& more) {
@@ -41,7 +62,7 @@ std::string csv_head(const StudyPlan& plan, const MoreColumns& more) {
     text += run_headings();
     for_each_measure([&](Measure m) { text += is_of_host(m) ? "" : "," + name_of(m); });
     text += ",limited_by";
-    text += more.elasticity.empty() ? "" : ",bandwidth_elasticity";
+    text += more.elasticity_headings();
     for (const std::string& stage : more.stages) {
         text += "," + csv_cell("stages." + stage + ".busy");
     }
@@ -61,7 +82,7 @@ std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::siz
     for_each_measure(
         [&](Measure m) { text += is_of_host(m) ? "" : "," + csv_number(row.measures[m]); });
     text += "," + csv_cell(row.limited_by);
-    text += more.elasticity.empty() ? "" : "," + csv_number(more.elasticity[r]);
+    text += more.elasticity_cells(r);
     text += named_cells(row, &RunNumbers::stages, more.stages);
     text += named_cells(row, &RunNumbers::parts, more.parts) +
             (more.intervals ? interval_cells(row) : "");
@@ -107,7 +128,7 @@ ordered_json variant_json(const StudyPlan& plan, const StudyVariant& variant) {
 }
 
 ordered_json run_json(const SweepResults& results, std::size_t r,
-                      const std::vector<std::optional<double>>& elasticity) {
+                      const std::vector<std::optional<Elasticity>>& elasticity) {
     const ComparisonRow& row = results.comparison.rows[r];
     ordered_json json = {{"point", results.points[r] + 1},
                          {"variant", row.config},
@@ -122,7 +143,12 @@ ordered_json run_json(const SweepResults& results, std::size_t r,
     put_interval(json, row);
     json["limited_by"] = row.limited_by;
     if (!elasticity.empty()) {
-        json["bandwidth_elasticity"] = number_json(elasticity[r]);
+        const std::optional<Elasticity>& here = elasticity[r];
+        json["bandwidth_elasticity"] = here ? number_json(here->gain) : ordered_json();
+        if (here && here->low) {
+            json["bandwidth_elasticity_interval"] = {number_json(here->low),
+                                                     number_json(here->high)};
+        }
     }
     json["stages"] = ordered_json::object();
     for (const auto& [name, busy] : row.stages) {

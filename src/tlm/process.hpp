@@ -338,6 +338,10 @@ public:
     }
     std::size_t depth() const { return depth_; }
     virtual const char* fifo_name() const = 0;
+    /// Says that results list the cells as a buffer, or that the costs of a unit include them.
+    void set_billed() { billed_ = true; }
+    /// True for wires and for one or two cells as well, which are registers between two units.
+    bool is_billed() const { return billed_ || depth_ == kWire || depth_ <= 2; }
 
     // For a timeline.
     /// Items read so far, the cycles that they were inside, and the cycles that the sides waited.
@@ -360,6 +364,7 @@ protected:
     Cycle release_latency_;
     std::size_t filled_ = 0;
     std::size_t depth_ = 0;
+    bool billed_ = false;
     std::size_t room_ = 0; // depth without the cells of items whose memory has not answered yet
     Cycle late_from_ = ~Cycle{0}; // no such item can be read before this date
     const Cycle* head_ = nullptr;

@@ -22,11 +22,10 @@ public:
     Blocks blocks() const override { return {1, std::max(1, config_.tile_size / 16)}; }
     int engines() const override { return config_.engines.count; }
     int sorters() const override { return config_.sorting.count; }
-    SortCycles sort_cycles(double entries, double) const override { // handed over as a whole
-        SortCycles sorted = degs::sort_cycles(config_.sorting, entries, entries, front());
-        sorted.first = sorted.all;
-        return sorted;
+    SortCycles sort_cycles(double entries, double) const override {
+        return degs::sort_cycles(config_.sorting, entries, entries, front());
     }
+    bool grants_lists() const override { return true; }
     double latency() const override {
         return 4 * memory_latency() + config_.engines.generation_latency +
                config_.engines.row_pe_latency;

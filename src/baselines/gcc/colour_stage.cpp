@@ -37,6 +37,7 @@ ColourStage::ColourStage(const sc_core::sc_module_name& name, const Config& conf
       block_ended("block_ended", config.skip_ended ? 1 : 0), out("out"), sh("sh", time),
       config_(config), traffic_(traffic), job_(job), granted_(granted), fetcher_(time),
       shader_(time), fetched_("fetched", time, groups_ahead), mask_(job.tile_size, config.block) {
+    fetched_.set_billed();
     DEGS_HAS_PROCESS(ColourStage);
     SC_THREAD(fetch);
     SC_THREAD(shade);

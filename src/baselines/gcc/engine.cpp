@@ -95,6 +95,7 @@ void Engine::build_stages_of(int cluster) {
     projection.start.bind(grouped);
     auto& groups = add_ring(projected_rings_, "projected", time_, config_.projection.groups_ahead,
                             config_.projection.latency_cycles);
+    groups.set_billed(); // with the stage that projects
     projection.out.bind(groups);
     colour.in.bind(groups);
     colour.out.bind(*splat_rings_[cluster]);

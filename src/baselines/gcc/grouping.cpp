@@ -35,6 +35,7 @@ Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
       frames_in_flight_(frames_in_flight), fetcher_(time), grouper_(time),
       fetched_("fetched", time, config.chunks_in_flight), acknowledged_(config.writes_in_flight, 0),
       regions_(job.views) {
+    fetched_.set_billed();
     DEGS_HAS_PROCESS(Grouping);
     SC_THREAD(fetch);
     SC_THREAD(group);

@@ -43,6 +43,8 @@ ProjectionStage::ProjectionStage(const sc_core::sc_module_name& name, const Conf
       shapes("shapes", time), config_(config), traffic_(traffic), job_(job), granted_(granted),
       loader_(time), fetcher_(time), projector_(time), loaded_("loaded", time, config.groups_ahead),
       fetched_("fetched", time, config.groups_ahead) {
+    loaded_.set_billed();
+    fetched_.set_billed();
     DEGS_HAS_PROCESS(ProjectionStage);
     SC_THREAD(load);
     SC_THREAD(fetch);

@@ -28,13 +28,9 @@ public:
     int engines() const override { return config_.clusters; }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double walked) const override {
-        if (config_.clusters == 1) {
-            return degs::sort_cycles(config_.sorting, entries, walked, front());
-        }
-        SortCycles sorted = // granted as a whole
-            degs::sort_cycles(config_.sorting, entries, entries, front());
-        sorted.first = sorted.all;
-        return sorted;
+        // Lists that are granted have been sorted to their end.
+        return degs::sort_cycles(config_.sorting, entries, grants_lists() ? entries : walked,
+                                 front());
     }
     double latency() const override { return 4 * memory_latency() + config_.array.pipeline_cycles; }
     int pes() const override { return config_.pes(); }

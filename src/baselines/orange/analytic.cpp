@@ -25,11 +25,10 @@ public:
     Blocks blocks() const override { return {1, std::max(1, config_.tile_size / 2)}; }
     int engines() const override { return config_.cores.count; }
     int sorters() const override { return config_.sorting.count; }
-    SortCycles sort_cycles(double entries, double) const override { // handed over as a whole
-        SortCycles sorted = degs::sort_cycles(config_.sorting, entries, entries, front());
-        sorted.first = sorted.all;
-        return sorted;
+    SortCycles sort_cycles(double entries, double) const override {
+        return degs::sort_cycles(config_.sorting, entries, entries, front());
     }
+    bool grants_lists() const override { return true; }
     double latency() const override {
         const int batch = config_.fetching.chunk;
         return 4 * memory_latency() + config_.cores.vector.latency_cycles +

@@ -105,6 +105,10 @@ TEST(Laws, BreachesAreNamed) {
     result.slots[Slot::Useful]++;
     EXPECT_NE(broken_law(result).find("13 is not 12"), std::string::npos);
     result = lawful();
+    result.unbilled = {"accelerator.queue_0 of 16 cells"};
+    EXPECT_NE(broken_law(result).find("stands for accelerator.queue_0 of 16 cells"),
+              std::string::npos);
+    result = lawful();
     result.conservation[0].right = 8;
     EXPECT_NE(broken_law(result).find("in = out"), std::string::npos);
     result = lawful();

@@ -77,8 +77,8 @@ void SplatSupply::build_lanes(const Timebase& time) {
     for (std::size_t f = 0; f < in.size(); ++f) {
         lanes_[f].room = depth;
         // One more for the end of the stream, which takes no place.
-        add_ring(arrived_, "arrived", time, fetching.chunks_in_flight + 1, 1);
-        add_ring(fifos_, "fifo", time, depth, 1);
+        add_ring(arrived_, "arrived", time, fetching.chunks_in_flight + 1, 1).set_billed();
+        add_ring(fifos_, "fifo", time, depth, 1).set_billed();
         add_wire(emptied_, "emptied", time, 1);
         outlets_.push_back(std::make_unique<SplatOutlet>(numbered("outlet", f).c_str(), time,
                                                          shape_.readers, fetching.splat_ports,

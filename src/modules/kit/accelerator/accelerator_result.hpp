@@ -126,6 +126,7 @@ struct AcceleratorResult {
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;
     Cycle stopped = 0; ///< nothing was left to happen at this date
     std::vector<Conservation> conservation;
+    std::vector<std::string> unbilled; ///< FIFOs that no buffer and no unit stands for
     /// Keys that the accelerator names for its losses (LossKey::name()), but that limited nothing
     /// in this run, so that to move them changes nothing.
     std::vector<std::string> idle_keys;

@@ -98,8 +98,12 @@ public:
         double keys = 0;       ///< that its steps take in
         double outside = 0;    ///< passes of the list through memory
         double first_step = 0; ///< of `first`, in which the list before may be in the second step
+        double run = 0;        ///< of the second step, on what leaves the sorter at a time
     };
     virtual SortCycles sort_cycles(double /*entries*/, double /*walked*/) const { return {}; }
+    /// Whether lists are granted to engines in turn when they are complete, as the Tile Dispatcher
+    /// does; else splats are fetched while their list is being sorted.
+    virtual bool grants_lists() const { return engines() > 1; }
     /// Splats that are fetched while those of the tile before are in work.
     virtual double places() const { return 0; }
     /// Tiles in work side by side; each is given to the first one that is free.

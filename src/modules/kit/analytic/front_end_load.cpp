@@ -179,6 +179,7 @@ AnalyticModel::SortCycles sort_cycles(const HierarchicalSorter::Config& config, 
     const double reading = outside == 0 ? 0 : front.list_access_cycles(std::min(entries, chunk));
     sort.first = sort.first_step + std::min(entries, chunk) * config.fine_cycles_per_key + reading;
     sort.all = sort.first_step + fine + std::ceil(sorted / chunk) * reading;
+    sort.run = std::min(entries, chunk) * config.fine_cycles_per_key + 1 + reading;
     return sort;
 }
 

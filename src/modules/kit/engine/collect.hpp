@@ -69,11 +69,13 @@ RingUse use_of(const Stats& stats, std::size_t depth) {
             stats.late_cycles};
 }
 
+/// What rings did whose cells a buffer of the results stands for.
 template <class T>
 RingUse use_of(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
     RingUse use;
     for (const auto& ring : rings) {
         use += use_of(ring->stats(), ring->depth());
+        ring->set_billed();
     }
     return use;
 }

@@ -43,6 +43,7 @@ void TileFrontEnd::build_units(const Config& config, const Timebase& time, const
                                                                config.projection, config.traffic,
                                                                time, job, i, waits_for));
         auto& chunks = add_ring(projected_, "projected", time, config.projection.chunks_ahead, 1);
+        chunks.set_billed(); // with the Projection Unit
         projection_.back()->out.bind(chunks);
         binner_->in[i].bind(chunks);
         if (waits_for != 0) {

@@ -49,6 +49,8 @@ HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, cons
       partitioned_("partitioned", time, config.lists_ahead) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
+    loaded_.set_billed();
+    partitioned_.set_billed();
     DEGS_HAS_PROCESS(HierarchicalSorter);
     SC_THREAD(coarse);
     SC_THREAD(fine);

@@ -36,6 +36,8 @@ ProjectionUnit::ProjectionUnit(const sc_core::sc_module_name& name, const Config
       fetcher_(time), projector_(time), shader_(time),
       fetched_("fetched", time, config.chunks_in_flight),
       projected_("projected", time, config.chunks_in_flight * job.views, config.latency_cycles) {
+    fetched_.set_billed();
+    projected_.set_billed();
     DEGS_HAS_PROCESS(ProjectionUnit);
     SC_THREAD(fetch);
     SC_THREAD(project);

@@ -32,6 +32,7 @@ SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& conf
       loaded_("loaded", time, config.lists_ahead) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
+    loaded_.set_billed();
     DEGS_HAS_PROCESS(SortingUnit);
     SC_THREAD(sort);
     sorter_.show(*this, stats_.sort_busy);

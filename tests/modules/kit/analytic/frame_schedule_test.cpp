@@ -12,7 +12,8 @@ namespace {
 /// A design that only sorts, a cycle per entry in each of two steps, and has engines.
 class SortingOnly : public AnalyticModel {
 public:
-    SortingOnly(int sorters, int engines) : sorters_(sorters), engines_(engines) {}
+    SortingOnly(int sorters, int engines, double run = 0)
+        : sorters_(sorters), engines_(engines), run_(run) {}
     std::vector<std::string> units() const override { return {"memory"}; }
     PreparationCycles preparation(const FrameWorkload&) const override { return {}; }
     std::unique_ptr<TileClock> clock(const FrameWorkload&) const override { return nullptr; }
@@ -22,7 +23,8 @@ public:
     SortCycles sort_cycles(double entries, double) const override {
         SortCycles sort;
         sort.first_step = entries;
-        sort.first = sort.all = 2 * entries; // handed over as a whole
+        sort.first = sort.all = 2 * entries; // no splat is fetched before
+        sort.run = run_;
         return sort;
     }
     int engines() const override { return engines_; }
@@ -38,6 +40,7 @@ public:
 
 private:
     int sorters_, engines_;
+    double run_;
     MainMemoryConfig memory_;
 };
 
@@ -69,7 +72,16 @@ TEST(FrameSchedule, AListWaitsForTheSlowerStep) {
 TEST(FrameSchedule, EnginesAreGrantedTilesInTurn) {
     EXPECT_EQ(end_of(SortingOnly(2, 2), {1000, 10}), 2001);
     EXPECT_EQ(end_of(SortingOnly(2, 2), {1000, 10, 10, 10}), 2011)
-        << "the next list of a sorter waits until the one before has been granted";
+        << "the next list of a sorter waits until the one before is with the dispatcher";
+}
+
+// Of 40 entries in runs of 10, one run waits in the FIFO and one in the sorter until the dispatcher
+// has taken the list before, at 2000; lists of one run are complete then.
+TEST(FrameSchedule, RunsWaitBehindACompleteList) {
+    const std::vector<double> lists{1000, 40, 1, 40};
+    EXPECT_EQ(end_of(SortingOnly(2, 2), lists), 2041);
+    EXPECT_EQ(end_of(SortingOnly(2, 2, 10), lists), 2021);
+    EXPECT_EQ(end_of(SortingOnly(2, 2, 20), lists), 2002) << "the list of one entry, sorted at 2001";
 }
 
 FrontEndLoad front_of(std::uint64_t capacity) {
