@@ -110,8 +110,8 @@ class Making:
         return seconds
 
     def measure(self, todo):
-        """All points of a round. Those whose times count, and studies, come last and alone."""
-        alone = [point for point in todo if point.runs or point.kind == "sweep"]
+        """All points of a round. Those whose times count, or that have processes of their own, come last and alone."""
+        alone = [point for point in todo if point.is_timed() or point.is_parallel()]
         progress = Progress(self.store.seconds(todo), self.jobs)
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             running = {pool.submit(points.measured, point): point for point in todo if point not in alone}
@@ -123,7 +123,7 @@ class Making:
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise
         for point in alone:
-            jobs = 1 if point.runs else self.jobs
+            jobs = 1 if point.is_timed() else self.jobs
             progress.finished(point, jobs * self.take(point, lambda each=point, n=jobs: points.measured(each, n)))
             self.advance({point})
 

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""notebook.py [FOLDER] [--update]: runs python/notebooks/an-architects-afternoon.ipynb and keeps what it shows.
+"""notebook.py [FOLDER] [--only NAME] [--update]: runs the notebooks of python/notebooks and keeps what they show.
 
-FOLDER (default out/notebook) gets the notebook with its outputs, as .ipynb and .html, its figures as afternoon-N.png,
-and what its last cell prints, as answer.txt, which is printed, too. --update also puts the figures into docs/images and
-the answer into docs/python.md. The program is that of DEGS_PROGRAM, or the one of build/. Needs Debian's
-jupyter-nbconvert, python3-ipykernel and python3-matplotlib, and so its Python."""
+FOLDER (default out/notebook) gets each notebook with its outputs, as .ipynb and .html, its figures as NAME-N.png, and
+what its last cell prints, as NAME.txt, which is printed, too. --update also puts the figures into docs/images and the
+answers into docs/python.md. NAME is afternoon or change. The program is that of DEGS_PROGRAM, or the one of build/.
+Needs Debian's jupyter-nbconvert, python3-ipykernel and python3-matplotlib, and so its Python."""
 
 import argparse
 import base64
@@ -18,16 +18,17 @@ from nbconvert import HTMLExporter
 from nbconvert.preprocessors import ExecutePreprocessor
 
 ROOT = Path(__file__).resolve().parents[1]
-NOTEBOOK = ROOT / "python/notebooks/an-architects-afternoon.ipynb"
+NOTEBOOKS = {"afternoon": ROOT / "python/notebooks/an-architects-afternoon.ipynb",
+             "change": ROOT / "python/notebooks/what-should-i-change.ipynb"}
 PAGE = ROOT / "docs/python.md"
-ANSWER = re.compile(r"(<!-- elsewhere: scripts/notebook.py writes this block -->\n```text\n).*?(```\n)", re.DOTALL)
+ANSWER = r"(<!-- elsewhere: scripts/notebook.py writes this block of {} -->\n```text\n).*?(```\n)"
 LIMIT_S = 600  # of a cell, on a machine that others use, too
 
 
-def executed():
+def executed(file):
     """The notebook with its outputs. An error in a cell ends the script with that error."""
     os.environ.update({"PYTHONPATH": str(ROOT / "python"), "PYDEVD_DISABLE_FILE_VALIDATION": "1"})
-    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    notebook = nbformat.read(file, as_version=4)
     ExecutePreprocessor(timeout=LIMIT_S, kernel_name="python3").preprocess(notebook, {"metadata": {"path": str(ROOT)}})
     return notebook
 
@@ -46,23 +47,32 @@ def answer_of(notebook):
     return "".join(output["text"] for output in notebook.cells[-1]["outputs"] if output.get("name") == "stdout")
 
 
+def keep(name, folder, update):
+    """Runs a notebook and writes what it shows."""
+    notebook = executed(NOTEBOOKS[name])
+    file = folder / NOTEBOOKS[name].name
+    nbformat.write(notebook, file)
+    file.with_suffix(".html").write_text(HTMLExporter().from_notebook_node(notebook)[0])
+    for number, picture in enumerate(figures_of(notebook), 1):
+        for place in [folder, *([ROOT / "docs/images"] if update else [])]:
+            (place / f"{name}-{number}.png").write_bytes(picture)
+    answer = answer_of(notebook)
+    (folder / f"{name}.txt").write_text(answer)
+    if update:
+        block = re.compile(ANSWER.format(name), re.DOTALL)
+        PAGE.write_text(block.sub(lambda found: found[1] + answer + found[2], PAGE.read_text()))
+    print(answer, end="")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "out/notebook")
+    parser.add_argument("--only", choices=list(NOTEBOOKS), help="run this notebook alone")
     parser.add_argument("--update", action="store_true", help="write docs/images and docs/python.md, too")
     options = parser.parse_args()
-    notebook = executed()
     options.folder.mkdir(parents=True, exist_ok=True)
-    nbformat.write(notebook, options.folder / NOTEBOOK.name)
-    (options.folder / NOTEBOOK.name).with_suffix(".html").write_text(HTMLExporter().from_notebook_node(notebook)[0])
-    for number, picture in enumerate(figures_of(notebook), 1):
-        for folder in [options.folder, *([ROOT / "docs/images"] if options.update else [])]:
-            (folder / f"afternoon-{number}.png").write_bytes(picture)
-    answer = answer_of(notebook)
-    (options.folder / "answer.txt").write_text(answer)
-    if options.update:
-        PAGE.write_text(ANSWER.sub(lambda found: found[1] + answer + found[2], PAGE.read_text()))
-    print(answer, end="")
+    for name in [options.only] if options.only else NOTEBOOKS:
+        keep(name, options.folder, options.update)
 
 
 if __name__ == "__main__":

@@ -12,10 +12,11 @@ from .design import Design, Section
 from .process import DegsWarning, Error, Missing, program, version
 from .report import Node, Report, run
 from .session import Session
-from .studies import Study, bandwidth, buffers, compare, statistics, sweep
+from .studies import Study, bandwidth, buffers, compare, gains, results, statistics, sweep
 
 __all__ = ["Design", "DegsWarning", "Error", "Missing", "Node", "Report", "Section", "Session", "Study", "accuracy",
-           "bandwidth", "buffers", "compare", "memory", "motion", "program", "run", "scene", "soc", "statistics", "sweep", "version", "workload"]
+           "bandwidth", "buffers", "compare", "gains", "memory", "motion", "program", "results", "run", "scene", "soc",
+           "statistics", "sweep", "version", "workload"]
 __version__ = "0.1.0"
 
 for _each in (DegsWarning, Error, Missing):

@@ -260,6 +260,21 @@ class Design:
         other.update(keys, **top_keys)
         return other
 
+    def with_settings(self, settings: str) -> "Design":
+        """A copy with values as reports and --what-if write them: "span.count=16,memory.bandwidth_gb_per_s=51.2"."""
+        values: Dict[str, Any] = {}
+        for setting in settings.split(","):
+            path, _, text = setting.partition("=")
+            key = self._key(path)
+            if key is None:
+                raise self.refusal(path, text)
+            try:
+                value = read(key, text)
+            except ValueError:  # It has a unit, or it is refused.
+                value = text
+            values[path] = text if isinstance(value, bool) and text not in ("true", "false") else value
+        return self.with_(values)
+
     def options(self) -> List[str]:
         """The changes as options of the program."""
         pairs = [f"{path}={text_of(value)}" for path, value in self._state["changes"].items()]

@@ -14,7 +14,7 @@ from typing import IO, Any, Callable, Dict, List, Optional, Sequence, TypeVar, c
 from .commands import accuracy, memory, motion, scene, soc, workload
 from .process import SERVER, Ended, Error, program, sentence_of, start, version
 from .report import options_of, run
-from .studies import bandwidth, buffers, compare, processors, statistics, sweep
+from .studies import bandwidth, buffers, compare, gains, processors, results, statistics, sweep
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Message = Dict[str, Any]
@@ -115,6 +115,8 @@ class Session:
         self.compare = self._through(compare)
         self.bandwidth = self._through(bandwidth)
         self.buffers = self._through(buffers)
+        self.gains = self._through(gains)
+        self.results = self._through(results)
         self.motion = self._through(motion)
         self.accuracy = self._through(accuracy)
         self.memory = self._through(memory)

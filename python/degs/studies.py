@@ -14,7 +14,7 @@ import yaml
 
 from .design import Design, file_of, keys_of, schema
 from .process import Error, PathLike, call
-from .report import options_of
+from .report import changed, options_of, run
 
 Axes = Mapping[str, Any]
 Designs = Union[Design, PathLike, Sequence[Union[Design, PathLike]], Mapping[str, Union[Design, PathLike]]]
@@ -151,7 +151,7 @@ class Study:
             words = options_of(lose=lose, jobs=jobs or processors(), out=folder)
             call(["buffers", file, *study_options(options), *words], progress)
             found = json.loads((folder / "buffers.json").read_text(encoding="utf-8"))
-            frame = pandas.DataFrame(found.pop("buffers"))
+            frame = pandas.DataFrame(found.pop("buffers")).astype({"bytes": int, "smallest_bytes": int})
             pairs = [setting.split("=", 1) for setting in found["settings"]]
             found["settings"] = {key: int(count) for key, count in pairs}
             frame.attrs.update(found)
@@ -216,6 +216,39 @@ def buffers(design: Designs, scenes: Union[PathLike, Sequence[PathLike]], lose: 
             **views: Any) -> pandas.DataFrame:
     """Study.buffers() of a design on views such as cameras=[0, 2], width=640."""
     return Study({"designs": design, "scenes": scenes}).buffers(lose, jobs=jobs, out=out, progress=progress, **views)
+
+
+def results(folder: PathLike) -> pandas.DataFrame:
+    """The runs that a sweep, a search, bandwidth() or buffers() kept in `out`, as Study.sweep() returns them. Of a call
+    with several designs or views, bandwidth() names the folder of each as `runs`."""
+    file = Path(folder) / "results.csv"
+    if not file.is_file():
+        raise Error(f"There are no results in the folder '{folder}': sweeps, searches, bandwidth and buffers keep them.")
+    return read_sweep(file)
+
+
+def gains(design: Union[Design, PathLike], scene: Union[None, PathLike] = None, *, jobs: Optional[int] = None,
+          progress: Optional[bool] = None, keys: Optional[Mapping[str, Any]] = None, **view: Any) -> pandas.DataFrame:
+    """What the largest losses of a design would gain, beside runs of the changed designs: a row for each of the `gains`
+    of a report (docs/report.md#gains).
+
+    `gain` is the named share of the cycles, with the interval `low` to `high`, and `measured` that of a run with the
+    `change`. `view` are camera=, width= or resolution= and so on, as in both degs.run() and degs.compare().
+    attrs["cycles"] has the cycles of the design as it is."""
+    chosen = changed(design, keys, {}, gains)
+    before = run(chosen, scene, reference=False, **view)
+    named = before.to_dict().get("gains", [])
+    changes = list(dict.fromkeys(each["change"] for each in named))
+    after: Dict[str, float] = {}
+    if changes:
+        runs = compare([chosen.with_settings(change) for change in changes], scene, jobs=jobs, progress=progress,
+                       reference=False, **view)
+        after = dict(zip(changes, runs["cycles"]))
+    rows = [(each["reason"], each["change"], each["gain"], *each["interval"], 1 - after[each["change"]] / before.cycles)
+            for each in named]
+    frame = pandas.DataFrame(rows, columns=["reason", "change", "gain", "low", "high", "measured"])
+    frame.attrs["cycles"] = before.cycles
+    return frame
 
 
 def compared(words: Sequence[str], jobs: Optional[int], out: Optional[PathLike], progress: Optional[bool],

@@ -139,3 +139,15 @@ def test_keys_without_effect_warn():
     with pytest.warns(degs.DegsWarning, match="'memory.latency_ns' has no effect") as caught:
         degs.Design("degs-64").with_({"memory.model": "lpddr5", "memory.latency_ns": 30}).check()
     assert caught[0].filename == __file__
+
+
+def test_settings_as_reports_write_them():
+    design = degs.Design("degs-64")
+    other = design.with_settings("memory.bandwidth_gb_per_s=51.2,scheduler.termination=pixel,monitor.cancel=false")
+    assert other.changes == {"memory.bandwidth_gb_per_s": 51.2, "scheduler.termination": "pixel",
+                             "monitor.cancel": False}
+    assert design.with_settings("packing.bytes=16KB").packing.bytes == 16384
+    for settings, sentence in (("span.cuont=2", "did you mean"), ("monitor.cancel=perhaps", "monitor.cancel"),
+                               ("span.count=0", "1 to 256"), ("span.count", "span.count")):
+        with pytest.raises(degs.Error, match=sentence):
+            design.with_settings(settings)

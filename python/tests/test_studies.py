@@ -200,3 +200,25 @@ def test_bandwidth_and_buffers(tmp_path):
     assert (fitted["smallest_bytes"] <= fitted["bytes"]).all() and fitted.attrs["loss"] <= 0.05
     smaller = degs.Design("degs-16").with_(fitted.attrs["settings"])
     assert smaller["packing.bytes"] == fitted.set_index("key").loc["packing.bytes", "smallest_bytes"]
+    assert fitted["bytes"].dtype == numpy.int64
+
+
+def test_gains_stand_beside_runs_of_the_changes():
+    design = degs.Design("degs-64").with_({"memory.bandwidth_gb_per_s": 12.8})
+    found = degs.gains(design, SCENE, camera=2, width=160, progress=False)
+    report = degs.run(design, SCENE, camera=2, width=160, reference=False)
+    assert found["change"].tolist() == [each.change for each in report.gains] and len(found) == 3
+    assert found["gain"].tolist() == [each.gain for each in report.gains] and found.attrs["cycles"] == report.cycles
+    first = found.iloc[0]
+    assert first["change"] == "memory.bandwidth_gb_per_s=25.6" and first["low"] < first["gain"] < first["high"]
+    faster = degs.run(design, SCENE, camera=2, width=160, reference=False, keys={"memory.bandwidth_gb_per_s": 25.6})
+    assert first["measured"] * report.cycles == pytest.approx(report.cycles - faster.cycles) and first["measured"] > 0.1
+    assert degs.gains("degs-64", SCENE, camera=2, width=160, fidelity="analytic", progress=False).empty
+
+
+def test_results_of_a_folder(tmp_path):
+    degs.bandwidth("degs-16", SCENE, camera=1, width=64, progress=False, out=tmp_path)
+    runs = degs.results(tmp_path)
+    assert runs["memory.bandwidth_gb_per_s"].nunique() == len(runs) > 1 and runs.attrs["units"]["cycles"] == "cycles"
+    with pytest.raises(degs.Error, match="There are no results in the folder"):
+        degs.results(tmp_path / "reports")

@@ -10,7 +10,6 @@ import hashlib
 import json
 import pathlib
 import resource
-import subprocess
 import tempfile
 import time
 
@@ -19,27 +18,19 @@ import yaml
 from .options import for_program, path_of
 from .scenes import ROOT, files_of, scene_file
 from degs.design import Design, texts_of
-from degs.process import call, program
+from degs.process import call
 from degs.report import Report
 
 FIVE = ("flowers", "guitar", "seal", "skull", "st-peter")  # scenes of most means
 HEIGHTS = {"720p": 720, "1080p": 1080, "2k": 1440, "4k": 2160, "8k": 4320}
+TINY_SCENE = "synthetic:object,gaussians=500"
 TINY_PATH = "tests/random/cameras.json:2"
-# Of a report: what a probe keeps, if it is there.
-PROBED = ("timing.cycles", "timing.throughput_fps", "timing.preprocessing_cycles", "slots.useful", "slots.boundary",
-          "slots.terminated", "slots.conflict", "slots.starved", "slots.blocked", "dram.bytes_read",
-          "dram.bytes_written", "dram.row_hit_rate", "energy.nj_per_frame", "area.mm2", "workload.tile_pairs",
-          "workload.fragments", "image.psnr_db")
-# Of a row of a study, and of a view.
-PROBED_ROW = ("cycles", "preprocessing_cycles", "slots.utilization", "slots.conflict", "dram.bytes_read",
-              "dram.bytes_written", "energy.nj_per_frame", "area_mm2")
-PROBED_VIEW = ("visible", "tile_pairs", "fragments_per_pixel", "fragments_per_splat", "terminated_share")
 
 
 @dataclasses.dataclass(frozen=True)
 class Point:
-    """One call: `kind` is run, view, accuracy or sweep. `source` is a design of configs or a study of configs/studies;
-    `runs` is how often it runs, one after the other and alone, where its times count."""
+    """One call: `kind` is run, view, accuracy, speed, sweep or search. `source` is a design of configs or a study of
+    configs/studies; `runs` is how often a run is repeated, one after the other, where its times count."""
 
     kind: str
     source: str
@@ -47,6 +38,14 @@ class Point:
     options: tuple = ()
     keys: tuple = ()
     runs: int = 0
+
+    def is_timed(self):
+        """Times of the result count, so nothing else may run beside it."""
+        return self.runs > 0 or self.kind == "speed"
+
+    def is_parallel(self):
+        """It has processes of its own, one for each processor."""
+        return self.kind in ("sweep", "search")
 
     def words(self):
         """The command line behind the program, without a place for its results."""
@@ -61,13 +60,16 @@ class Point:
             return ["scene", "info", *scene[1:], *self.options, "--json"]
         if self.kind == "accuracy":
             return ["accuracy", *scene, *self.options, "--no-error-images"]
-        return ["sweep", str(ROOT / f"configs/studies/{self.source}.yaml"), *scene, *self.options, *keys]
+        if self.kind == "speed":
+            return ["accuracy", *scene, *self.options, *keys, "--speed", design_file(self.source)]
+        command = "explore" if self.kind == "search" else "sweep"
+        return [command, str(ROOT / f"configs/studies/{self.source}.yaml"), *scene, *self.options, *keys]
 
     def designs(self):
         """Designs and changed keys whose values the result depends on."""
-        if self.kind == "run":
+        if self.kind in ("run", "speed"):
             return [(design_file(self.source), self.keys)]
-        return [(file, ()) for file in study_designs(self.source)] if self.kind == "sweep" else []
+        return [(file, ()) for file in study_designs(self.source)] if self.is_parallel() else []
 
     def key(self):
         """What names the point in files."""
@@ -79,6 +81,8 @@ class Point:
         sized = ("--resolution", "--width", "--height", "--camera", "--frames", "--crop")
         if self.kind == "sweep":
             sized = ("--resolution", "--frames")
+        if self.kind == "search":
+            sized = (*sized, "--scene")
         options, skip = [], False
         for word in self.options:
             if not skip and word not in sized:
@@ -86,14 +90,16 @@ class Point:
             skip = word in sized
         if self.kind == "accuracy":
             options += ["--resolution", "720p"]
-        if self.kind in ("run", "view"):
+        if self.kind in ("run", "view", "speed", "search"):
             options += ["--width", "160", "--camera", "1"]
+        if self.kind == "search":
+            options += ["--scene", TINY_SCENE]
         if self.kind == "sweep":
             named = dict(zip(self.options, self.options[1:])).get("--resolution", study_resolutions(self.source))
             options += ["--resolution", ",".join(f"32x{HEIGHTS[name]}" for name in named.split(","))]
         if "--frames" in self.options and self.kind != "view":
             options += ["--frames", "3"]
-        scene = "synthetic:object,gaussians=500" if self.scene else ""
+        scene = TINY_SCENE if self.scene else ""
         if "--path" in options:
             options[options.index("--path") + 1] = TINY_PATH
             scene = f"{self.scene.split(',')[0]},gaussians=20000"
@@ -113,6 +119,17 @@ def view(scene, options=""):
 def accuracy(scene, options):
     """Errors of images in several --numbers: the entries of accuracy.json."""
     return Point("accuracy", "", scene, tuple(options.split()))
+
+
+def speed(design, scene, options, *keys):
+    """Runs of a design in several fidelities and number sets, with their times and errors: speed.json."""
+    return Point("speed", design, scene, tuple(options.split()), keys)
+
+
+def search(study, options):
+    """Designs that `degs explore` finds in a study: explore.json. Scenes are options, as there may be several; all are
+    synthetic."""
+    return Point("search", study, "", tuple(options.split()))
 
 
 def sweep(study, scene="", options="", *keys):
@@ -180,7 +197,7 @@ def depends_on(point):
         yield from map(content, files_of(point.scene))
     if "--path" in point.options:
         yield content(path_of(point.options)[0])
-    if point.kind == "sweep":
+    if point.is_parallel():
         file, study = study_of(point.source)
         yield json.dumps(study, sort_keys=True)
         designs = {design["include"] for design in study["designs"]}
@@ -191,7 +208,7 @@ def depends_on(point):
     for word in point.options:
         if word.startswith("configs/"):
             yield content(str(ROOT / word))
-    yield json.dumps([point.kind, point.scene, point.options, point.keys if point.kind == "sweep" else (), point.runs])
+    yield json.dumps([point.kind, point.scene, point.options, point.keys if point.is_parallel() else (), point.runs])
 
 
 def measured(point, jobs=1):
@@ -212,6 +229,9 @@ def once(point, jobs):
             call([*point.words(), "--jobs", str(jobs), "--out", folder], progress=False, warn=False)
             return {"rows": rows_of(pathlib.Path(folder, "results.csv")),
                     "seconds": [float(row["host.sim_s"]) for row in rows_of(pathlib.Path(folder, "host.csv"))]}
+        if point.kind == "search":
+            call([*point.words(), "--jobs", str(jobs), "--out", folder], progress=False, warn=False)
+            return json.loads(pathlib.Path(folder, "explore.json").read_text(encoding="utf-8"))
         words = for_program(point.words(), folder)
         before = processor_s()
         call([*words, "--out", folder], warn=False)
@@ -219,6 +239,8 @@ def once(point, jobs):
         if point.kind == "accuracy":
             return {"rows": json.loads(pathlib.Path(folder, "accuracy.json").read_text(encoding="utf-8"))}
         name = "analytic.json" if "analytic" in point.options else "report.json"
+        if point.kind == "speed":
+            name = "speed.json"
         values = json.loads(pathlib.Path(folder, name).read_text(encoding="utf-8"))
         if point.runs:
             values["host"]["processor_s"] = used
@@ -238,65 +260,6 @@ def rows_of(path):
 
 def shown(point, values):
     """The result as a table sees it."""
-    return Report(values) if point.kind in ("run", "view") else values["rows"]
-
-
-def probe_of(point, values, seconds):
-    """(seconds, what to run, what it gives) of the cheapest part of a point; None if it has none."""
-    if point.kind == "sweep":
-        if not values["rows"]:
-            return None
-        cheapest = min(range(len(values["rows"])), key=lambda index: values["seconds"][index])
-        row = values["rows"][cheapest]
-        return values["seconds"][cheapest], {**fields(point), "row": row["point"]}, numbers(row, PROBED_ROW)
-    if point.kind == "accuracy":
-        return None
-    return seconds / max(1, point.runs), fields(point), probed(point, values)
-
-
-def fields(point):
-    """A point as JSON has it, without what it does not say."""
-    return {name: value for name, value in dataclasses.asdict(dataclasses.replace(point, runs=0)).items() if value}
-
-
-def probed(point, values):
-    report = Report(values["view"] if point.kind == "view" else values)
-    names = PROBED_VIEW if point.kind == "view" else PROBED
-    return numbers({name: report[name] for name in names if name in report}, names)
-
-
-def numbers(values, names):
-    """Counts as they are, and other numbers with six digits: more may depend on the compiler."""
-    found = {name: float(values[name]) for name in names if values.get(name) not in (None, "")}
-    return {name: int(value) if value.is_integer() else float(f"{value:.6g}")
-            for name, value in found.items() if abs(value) < float("inf")}
-
-
-def point_of(probe):
-    words = {name: tuple(value) if isinstance(value, list) else value for name, value in probe.items() if name != "row"}
-    return Point(**{"source": "", **words})
-
-
-def small_probe(probe):
-    """(seconds, what to run, what it gives) of the same design and keys on a tiny view, in place of a long probe."""
-    small = fields(point_of(probe).quick())
-    if "row" in probe:
-        small["row"] = probe["row"]
-    began = time.monotonic()
-    values = probed_again(small)
-    return time.monotonic() - began, small, values
-
-
-def probed_again(probe):
-    """What a probe gives now."""
-    point = point_of(probe)
-    if "row" not in probe:
-        return probed(point, once(point, 1))
-    with tempfile.TemporaryDirectory(prefix="degs-measure-") as folder:
-        listed = call([*point.words(), "--list"], warn=False).splitlines()
-        count = max(int(line.split()[0]) for line in listed if line.split()[:1] and line.split()[0].isdigit())
-        call([*point.words(), "--shard", f"{probe['row']}/{count}", "--out", folder], progress=False, warn=False)
-        subprocess.run([program(), *point.words(), "--collect", "--out", folder], check=False,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        rows = [row for row in rows_of(pathlib.Path(folder, "results.csv")) if row["point"] == probe["row"]]
-    return numbers(rows[0], PROBED_ROW) if rows else {}
+    if point.kind in ("accuracy", "sweep"):
+        return values["rows"]
+    return Report(values) if point.kind in ("run", "view") else values

@@ -9,6 +9,7 @@ import hashlib
 import json
 
 from . import points
+from .probes import probe_of, probed_again, small_probe
 from .scenes import ROOT, Missing
 
 FILE = ROOT / "docs/tables.json"
@@ -47,7 +48,7 @@ def add(table, asked, results):
     """Keeps the record of a table that was written; `results` are values and seconds of its points. A probe that
     another table has is taken if it costs at most half a second more than the cheapest."""
     kept = read()
-    found = [probe for probe in (points.probe_of(point, *results[point]) for point in asked) if probe]
+    found = [probe for probe in (probe_of(point, *results[point]) for point in asked) if probe]
     name = ""
     if found:
         cheapest = min(seconds for seconds, *_ in found)
@@ -55,7 +56,7 @@ def add(table, asked, results):
         cost, probe, values = min(found, key=lambda each: (each[0] > cheapest + LONG_S or name_of(*each[1:]) not in names,
                                                            each[0]))
         if cost > LONG_S:
-            cost, probe, values = points.small_probe(probe)
+            cost, probe, values = small_probe(probe)
         name = name_of(probe, values)
         kept["probes"] = [each for each in kept["probes"] if each["name"] != name]
         kept["probes"].append({"name": name, "seconds": round(cost, 2), "point": probe, "values": values})
@@ -67,7 +68,7 @@ def add(table, asked, results):
 
 def differences(probe):
     """Sentences on the numbers of a probe that are not what they were; `Missing` if its scene is not there."""
-    now = points.probed_again(probe["point"])
+    now = probed_again(probe["point"])
     return [f"{name} was {value} and is {now[name]}" if name in now else f"{name} was {value} and is gone"
             for name, value in probe["values"].items() if now.get(name) != value]
 

@@ -11,6 +11,7 @@ import pathlib
 import statistics
 
 from . import points
+from degs.process import program
 
 GUESS = 5.0  # seconds of a point of which nothing is known
 
@@ -21,7 +22,7 @@ class Store:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.build = points.content(points.program())
+        self.build = points.content(program())
         self.times_file = self.folder / "seconds.json"
         self.times = json.loads(self.times_file.read_text()) if self.times_file.exists() else {}
 

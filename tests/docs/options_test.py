@@ -64,6 +64,16 @@ class Given(unittest.TestCase):
         words = self.given(points.run("degs-64", "synthetic:object", "--trace {out}/trace.json"))
         self.assertEqual(words[words.index("--trace") + 1], f"{self.folder}/trace.json")
 
+    def test_searches_and_times_of_fidelities(self):
+        words = points.speed("degs-64", "synthetic:object", "--camera 2 --seeds 3", "tile_size=16").words()
+        self.assertEqual(words, ["accuracy", "--scene", "synthetic:object", "--camera", "2", "--seeds", "3",
+                                 "--set", "tile_size=16", "--speed", str(ROOT / "configs/degs-64.yaml")])
+        both = "--scene synthetic:object --scene synthetic:outdoor --camera 1 --width 320 --budget 4"
+        point = points.search("beyond-64", both)
+        self.assertEqual(point.words(), ["explore", str(ROOT / "configs/studies/beyond-64.yaml"), *both.split()])
+        self.assertEqual(point.quick().words()[2:], ["--budget", "4", "--width", "160", "--camera", "1", "--scene",
+                                                     points.TINY_SCENE])
+
     def test_a_view_is_packed_for_its_design(self):
         words = self.given(points.run("degs-64", "synthetic:object", "--camera 1 --packed --no-cache", "tile_size=16"))
         design, file = str(ROOT / "configs/degs-64.yaml"), str(self.folder / "frame.degsw")
