@@ -45,12 +45,36 @@ TEST(BandwidthCurves, InterpolateInTheLogarithms) {
     EXPECT_FALSE(list[0]);
     EXPECT_FALSE(list[1]);
     EXPECT_FALSE(list[2]);
-    EXPECT_NEAR(list[3].value(), 100 * (std::sqrt(1.1) - 1), 1e-9);
+    EXPECT_NEAR(list[3].value().gain, 100 * (std::sqrt(1.1) - 1), 1e-9);
+    EXPECT_FALSE(list[3]->low) << "exact runs";
     const auto curves = bandwidth_curves(curve.plan, curve.comparison);
     ASSERT_EQ(curves.size(), 1U);
     EXPECT_EQ(curves[0].points.size(), 3U);
     EXPECT_EQ(curves[0].unlimited_latency_ms, 0.9);
     EXPECT_FALSE(curves[0].enough_gb_per_s); // 10 % gain 5 % up to the end
+}
+
+// The neighbours are 1 % and 2 % wide to both sides, so that four times the bandwidth divide the
+// time by 1.98 / 1.02 to 2.02 / 0.98.
+TEST(BandwidthCurves, HaveTheIntervalsOfSamples) {
+    Curve curve({{100, 2}, {200, 1.4}, {400, 1}});
+    const auto set = [&](std::size_t row, double width) {
+        ComparisonRow& r = curve.comparison.rows[row];
+        r.fidelity = "sampled";
+        const double cycles = *r.measures[Measure::LatencyMs] * 1e6;
+        r.measures[Measure::Cycles] = cycles;
+        r.cycles_low = cycles * (1 - width);
+        r.cycles_high = cycles * (1 + width);
+    };
+    set(0, 0.01);
+    set(2, 0.02);
+    const auto list = elasticities(curve.plan, curve.comparison);
+    const auto gain = [](double saved) {
+        return 100 * (std::pow(saved, std::log(1.1) / std::log(4)) - 1);
+    };
+    EXPECT_NEAR(list[1].value().gain, gain(2), 1e-9);
+    EXPECT_NEAR(list[1]->low.value(), gain(1.98 / 1.02), 1e-9);
+    EXPECT_NEAR(list[1]->high.value(), gain(2.02 / 0.98), 1e-9);
 }
 
 TEST(BandwidthCurves, EndWhereTenPercentGainLessThanOne) {
