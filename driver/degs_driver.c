@@ -20,14 +20,18 @@ static void write_pair(const degs_device *device, uint32_t offset, uint64_t valu
     write_word(device, offset + 4, (uint32_t)(value >> 32));
 }
 
+static uint64_t bits_of(double value) {
+    union {
+        double value;
+        uint64_t bits;
+    } number;
+    number.value = value;
+    return number.bits;
+}
+
 static void write_doubles(const degs_device *device, uint32_t offset, const double *values, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
-        union {
-            double value;
-            uint64_t bits;
-        } number;
-        number.value = values[i];
-        write_pair(device, offset + 8 * i, number.bits);
+        write_pair(device, offset + 8 * i, bits_of(values[i]));
     }
 }
 
@@ -57,6 +61,53 @@ void degs_set_window(const degs_device *device, const degs_window *window) {
     write_doubles(device, DEGS_REG_SHIFT_Y, &window->shift_y, 1);
     write_word(device, DEGS_REG_ORIGIN_X, window->origin_x);
     write_word(device, DEGS_REG_ORIGIN_Y, window->origin_y);
+}
+
+static void put_word(unsigned char *entry, uint32_t offset, uint32_t value) {
+    for (uint32_t i = 0; i < 4; ++i) {
+        entry[offset + i] = (unsigned char)(value >> 8 * i);
+    }
+}
+
+static void put_pair(unsigned char *entry, uint32_t offset, uint64_t value) {
+    put_word(entry, offset, (uint32_t)value);
+    put_word(entry, offset + 4, (uint32_t)(value >> 32));
+}
+
+static void put_doubles(unsigned char *entry, uint32_t offset, const double *values, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) {
+        put_pair(entry, offset + 8 * i, bits_of(values[i]));
+    }
+}
+
+void degs_encode_view(const degs_view *view, unsigned char *entry) {
+    for (uint32_t i = 0; i < DEGS_VIEW_BYTES; ++i) {
+        entry[i] = 0;
+    }
+    put_pair(entry, DEGS_ENTRY_FRAME_BUFFER, view->frame_buffer);
+    put_word(entry, DEGS_ENTRY_WIDTH, view->camera.width);
+    put_word(entry, DEGS_ENTRY_HEIGHT, view->camera.height);
+    put_doubles(entry, DEGS_ENTRY_FOCAL_X, &view->camera.focal_x, 1);
+    put_doubles(entry, DEGS_ENTRY_FOCAL_Y, &view->camera.focal_y, 1);
+    put_doubles(entry, DEGS_ENTRY_AXES, view->camera.axes, 9);
+    put_doubles(entry, DEGS_ENTRY_POSITION, view->camera.position, 3);
+    put_doubles(entry, DEGS_ENTRY_SHIFT_X, &view->window.shift_x, 1);
+    put_doubles(entry, DEGS_ENTRY_SHIFT_Y, &view->window.shift_y, 1);
+    put_word(entry, DEGS_ENTRY_ORIGIN_X, view->window.origin_x);
+    put_word(entry, DEGS_ENTRY_ORIGIN_Y, view->window.origin_y);
+    put_word(entry, DEGS_ENTRY_LENS, view->lens.kind);
+    put_doubles(entry, DEGS_ENTRY_RADIAL, view->lens.radial, 4);
+    put_doubles(entry, DEGS_ENTRY_DENOMINATOR, view->lens.denominator, 3);
+    put_doubles(entry, DEGS_ENTRY_TANGENTIAL, view->lens.tangential, 2);
+    put_doubles(entry, DEGS_ENTRY_GAZE_X, &view->gaze.x, 1);
+    put_doubles(entry, DEGS_ENTRY_GAZE_Y, &view->gaze.y, 1);
+    put_doubles(entry, DEGS_ENTRY_FOVEA, &view->gaze.fovea, 1);
+    put_doubles(entry, DEGS_ENTRY_PERIPHERY, &view->gaze.periphery, 1);
+}
+
+void degs_set_views(const degs_device *device, uint64_t address, uint32_t count) {
+    write_pair(device, DEGS_REG_VIEWS, address);
+    write_word(device, DEGS_REG_VIEW_COUNT, count);
 }
 
 void degs_set_workspace(const degs_device *device, uint64_t address, uint64_t bytes) {
@@ -150,6 +201,26 @@ void degs_read_counters(const degs_device *device, degs_counters *counters) {
     counters->fragments = read_pair(device, DEGS_REG_FRAGMENTS);
     counters->frames = read_word(device, DEGS_REG_FRAMES);
     counters->dropped = read_word(device, DEGS_REG_DROPPED);
+}
+
+uint32_t degs_views_drawn(const degs_device *device) {
+    return read_word(device, DEGS_REG_VIEWS_DRAWN);
+}
+
+void degs_read_view(const degs_device *device, uint32_t number, degs_drawn_view *view) {
+    write_word(device, DEGS_REG_VIEW, number);
+    view->entry = read_word(device, DEGS_REG_VIEW_ENTRY);
+    view->scale = read_word(device, DEGS_REG_VIEW_SCALE);
+    view->address = read_pair(device, DEGS_REG_VIEW_ADDRESS);
+    view->width = read_word(device, DEGS_REG_VIEW_WIDTH);
+    view->height = read_word(device, DEGS_REG_VIEW_HEIGHT);
+    view->x = read_word(device, DEGS_REG_VIEW_X);
+    view->y = read_word(device, DEGS_REG_VIEW_Y);
+    for (uint32_t i = 0; i < 4; ++i) {
+        view->shown[i] = read_word(device, DEGS_REG_VIEW_SHOWN + 4 * i);
+    }
+    view->cycles = read_pair(device, DEGS_REG_VIEW_CYCLES);
+    view->fragments = read_pair(device, DEGS_REG_VIEW_FRAGMENTS);
 }
 
 uint32_t degs_mmio_read(void *context, uint32_t offset) {

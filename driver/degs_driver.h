@@ -3,7 +3,7 @@
  * platform supplies two functions that read and write a register; degs_mmio_read and degs_mmio_write do so where the
  * registers are mapped into memory. docs/accelerator.md explains the registers and the layout of a scene.
  *
- * A frame: degs_set_scene, degs_set_camera, degs_set_workspace, degs_set_frame_buffer, degs_start, then either
+ * A frame: degs_set_scene, degs_set_camera (or, for several views, lenses and foveation, degs_set_views), degs_set_workspace, degs_set_frame_buffer, degs_start, then either
  * degs_wait, or sleep until the interrupt and degs_acknowledge. A start samples all registers, so that the next frame
  * may be described while one is being rendered. One processor at a time may use a device. */
 #ifndef DEGS_DRIVER_H
@@ -46,6 +46,41 @@ typedef struct degs_window {
     uint32_t origin_x, origin_y; /* px, the first pixel of the image; more is taken if the shift needs it */
 } degs_window;
 
+/* What the lens makes of directions (docs/cameras.md); all 0 for a pinhole. */
+typedef struct degs_lens {
+    uint32_t kind;         /* DEGS_LENS_PINHOLE, DEGS_LENS_OPENCV or DEGS_LENS_FISHEYE */
+    double radial[4];      /* k1, k2, k3 and the factor of r^8; of a fisheye k1 to k4 */
+    double denominator[3]; /* k4, k5, k6 of OpenCV's lens */
+    double tangential[2];  /* p1, p2 of OpenCV's lens */
+} degs_lens;
+
+/* Where an eye looks, and how far from there each resolution reaches (docs/foveation.md). */
+typedef struct degs_gaze {
+    double x, y;             /* shares of width and height from the upper left corner, 0 to 1 */
+    double fovea, periphery; /* degrees, in this order, up to 90; a fovea of 0: the view is not foveated */
+} degs_gaze;
+
+/* One of several views of a frame, such as an eye. */
+typedef struct degs_view {
+    uint64_t frame_buffer; /* address of its pixels; of a foveated view, of those of its levels, finest first */
+    degs_camera camera;
+    degs_window window;
+    degs_lens lens;
+    degs_gaze gaze;
+} degs_view;
+
+/* A view that the last frame has drawn: one of the table, or a level of it. */
+typedef struct degs_drawn_view {
+    uint32_t entry;         /* of the table, from 0 on */
+    uint32_t scale;         /* px of the image along a side of a pixel: 1, 2 or 4; 0: there is no such view */
+    uint64_t address;       /* of its pixels, row by row */
+    uint32_t width, height; /* its pixels */
+    uint32_t x, y;          /* its first pixel, among all pixels of its size in the image */
+    uint32_t shown[4];      /* first column and row, width and height of what it shows, px of the image */
+    uint64_t cycles;        /* scene loaded to its last pixel in memory */
+    uint64_t fragments;
+} degs_drawn_view;
+
 /* Of the last frame, but for `frames`. */
 typedef struct degs_counters {
     uint64_t cycles, load_cycles;
@@ -62,6 +97,13 @@ void degs_set_scene(const degs_device *device, const degs_scene *scene);
 void degs_set_camera(const degs_device *device, const degs_camera *camera);
 /* For cameras that are not centred; the setting stays until the next one or a reset. */
 void degs_set_window(const degs_device *device, const degs_window *window);
+/* Writes the DEGS_VIEW_BYTES of an entry of the table of views, which the processor then puts into the accelerator's
+ * memory. */
+void degs_encode_view(const degs_view *view, unsigned char *entry);
+/* A frame of `count` views, up to DEGS_MOST_VIEWS, whose table of entries lies at `address`; degs_set_camera,
+ * degs_set_window and the address of degs_set_frame_buffer then have no effect, until this is called with a count of 0.
+ * The table is read when the frame begins. */
+void degs_set_views(const degs_device *device, uint64_t address, uint32_t count);
 /* Memory for splat records and lists; degs_workspace_needed says after a frame how many bytes it took. */
 void degs_set_workspace(const degs_device *device, uint64_t address, uint64_t bytes);
 /* format: DEGS_FORMAT_RGBA8 or DEGS_FORMAT_RGBA16F. */
@@ -98,6 +140,10 @@ uint32_t degs_error(const degs_device *device);
  * DEGS_ERROR_CODE_SMALL_WORKSPACE, and asks for nothing else. */
 uint64_t degs_workspace_needed(const degs_device *device);
 void degs_read_counters(const degs_device *device, degs_counters *counters);
+/* The views that the last frame has drawn; after DEGS_ERROR_CODE_SMALL_WORKSPACE, those that it would have drawn. */
+uint32_t degs_views_drawn(const degs_device *device);
+/* One of them, from 0 on, those of the first entry first and of each the finest first. */
+void degs_read_view(const degs_device *device, uint32_t number, degs_drawn_view *view);
 
 /* For registers that are mapped into memory; context: the address of the first one. */
 uint32_t degs_mmio_read(void *context, uint32_t offset);

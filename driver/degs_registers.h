@@ -4,9 +4,9 @@
 #ifndef DEGS_REGISTERS_H
 #define DEGS_REGISTERS_H
 
-#define DEGS_REGISTER_BYTES             0x138u /* size of the register window */
+#define DEGS_REGISTER_BYTES             0x214u /* size of the register window */
 #define DEGS_ID_VALUE                   0x53476544u /* what ID holds */
-#define DEGS_VERSION_VALUE              0x00010002u /* what VERSION holds */
+#define DEGS_VERSION_VALUE              0x00010003u /* what VERSION holds */
 #define DEGS_BASE_ALIGNMENT             64u /* of all addresses, bytes */
 
 #define DEGS_REG_ID                     0x000u /* the bytes "DeGS" */
@@ -51,8 +51,10 @@
 #define DEGS_ERROR_CODE_BUS_ERROR       10u /* memory refused an access of the frame */
 #define DEGS_ERROR_CODE_SCENE_CHANGED   11u /* the scene was written during the frame */
 #define DEGS_ERROR_CODE_OUT_OF_MEMORY   12u /* the host that simulates has too little memory */
+#define DEGS_ERROR_CODE_BAD_VIEW_COUNT  13u /* more than 64 views */
+#define DEGS_ERROR_CODE_BAD_FOVEATION   14u /* a gaze outside of the image, or angles that are not in order */
 
-#define DEGS_REG_ERROR_DETAIL           0x01Cu /* offset of the register that is wrong, or the answer of the bus */
+#define DEGS_REG_ERROR_DETAIL           0x01Cu /* offset of the register that is wrong, or, in the upper half, the entry of the table of views from 1 on, and in the lower half the offset in it; or the answer of the bus */
 
 #define DEGS_REG_GEOMETRY               0x020u /* 2 words: address of the geometry records */
 
@@ -107,5 +109,59 @@
 #define DEGS_REG_FRAMES                 0x130u /* frames rendered so far, those with a bus error or a changed scene included */
 
 #define DEGS_REG_DROPPED                0x134u /* of the last frame: Gaussians that no renderer can draw */
+
+#define DEGS_REG_VIEW_COUNT             0x140u /* views in the table, up to 64; 0: FRAME_BUFFER and the registers from WIDTH to ORIGIN_Y describe the one view */
+
+#define DEGS_REG_VIEW                   0x144u /* drawn view, from 0 on, of which the registers from VIEW_SCALE on tell whose names begin with VIEW */
+
+#define DEGS_REG_VIEWS                  0x148u /* 2 words: address of the table of views */
+
+#define DEGS_REG_VIEWS_DRAWN            0x150u /* of the last frame: its drawn views; each level of a foveated view is one */
+
+#define DEGS_REG_VIEW_SCALE             0x154u /* pixels of the image along a side of a pixel of the drawn view: 1, 2 or 4; 0 if there is no such view */
+
+#define DEGS_REG_VIEW_ADDRESS           0x158u /* 2 words: address of its pixels */
+
+#define DEGS_REG_VIEW_CYCLES            0x160u /* 2 words: of the last frame: scene loaded to last pixel of this view, and those before it, in memory */
+
+#define DEGS_REG_VIEW_FRAGMENTS         0x168u /* 2 words: its part of FRAGMENTS */
+
+#define DEGS_REG_VIEW_WIDTH             0x170u /* its pixels in a row */
+
+#define DEGS_REG_VIEW_HEIGHT            0x174u /* its rows */
+
+#define DEGS_REG_VIEW_X                 0x178u /* its first column among all of its size in the image */
+
+#define DEGS_REG_VIEW_Y                 0x17Cu /* the same of its first row */
+
+#define DEGS_REG_VIEW_SHOWN             0x200u /* 4 words: first column and row, width and height of what it shows of the image, in pixels of the image, with what finer levels show */
+
+#define DEGS_REG_VIEW_ENTRY             0x210u /* entry of the table, from 0 on, that it belongs to */
+
+/* An entry of the table of views: its size, and offsets of its fields in bytes. */
+#define DEGS_VIEW_BYTES                 320u /* of an entry */
+#define DEGS_MOST_VIEWS                 64u /* entries of a table */
+#define DEGS_ENTRY_FRAME_BUFFER         0x000u /* 2 words: address of the frame buffer */
+#define DEGS_ENTRY_WIDTH                0x008u /* pixels, 1 to 65536 */
+#define DEGS_ENTRY_HEIGHT               0x00Cu /* pixels, 1 to 65536; at most 2^26 pixels in all (an option of the model) */
+#define DEGS_ENTRY_FOCAL_X              0x010u /* 2 words: double, focal length in pixels of the width */
+#define DEGS_ENTRY_FOCAL_Y              0x018u /* 2 words: double, focal length in pixels of the height */
+#define DEGS_ENTRY_AXES                 0x020u /* 18 words: 9 doubles: view axes x (right), y (down), z (forward) in world space */
+#define DEGS_ENTRY_POSITION             0x068u /* 6 words: 3 doubles: camera centre in world space */
+#define DEGS_ENTRY_SHIFT_X              0x080u /* 2 words: double, pixels from the middle of the image to the right, where the principal point is */
+#define DEGS_ENTRY_SHIFT_Y              0x088u /* 2 words: double, the same downwards */
+#define DEGS_ENTRY_ORIGIN_X             0x090u /* first column of the image in its raster, whose tiles begin at column 0; at least -2 SHIFT_X, rounded down, is taken */
+#define DEGS_ENTRY_ORIGIN_Y             0x094u /* the same of its first row */
+#define DEGS_ENTRY_LENS                 0x098u /* kind of lens */
+#define DEGS_LENS_PINHOLE               0u /* all coefficients are 0 */
+#define DEGS_LENS_OPENCV                1u /* OpenCV's lens */
+#define DEGS_LENS_FISHEYE               2u /* OpenCV's fisheye */
+#define DEGS_ENTRY_RADIAL               0x0A0u /* 8 words: 4 doubles: k1, k2, k3 and the factor of r^8; of a fisheye k1 to k4 */
+#define DEGS_ENTRY_DENOMINATOR          0x0C0u /* 6 words: 3 doubles: k4, k5, k6 of OpenCV's lens */
+#define DEGS_ENTRY_TANGENTIAL           0x0D8u /* 4 words: 2 doubles: p1, p2 of OpenCV's lens */
+#define DEGS_ENTRY_GAZE_X               0x0E8u /* 2 words: double, point looked at, in shares of the width from the left, 0 to 1 */
+#define DEGS_ENTRY_GAZE_Y               0x0F0u /* 2 words: double, the same of the height from the top */
+#define DEGS_ENTRY_FOVEA                0x0F8u /* 2 words: double, degrees from there with full resolution, up to 90; 0: the view is not foveated */
+#define DEGS_ENTRY_PERIPHERY            0x100u /* 2 words: double, degrees from there with half of it, FOVEA to 90 */
 
 #endif

@@ -120,6 +120,9 @@ int render(const char* design_file, const char* scene_file, int position) {
         return 1;
     }
     const degs::MemoryScene::View& view = scene.views[std::size_t(position)];
+    if (view.lens != degs::LensKind::Pinhole) { // which a table of views would take
+        std::fprintf(stderr, "warning: The camera has a lens; this program draws a pinhole.\n");
+    }
     const std::size_t pixels = std::size_t(view.width) * std::size_t(view.height);
     degs::AcceleratorOptions options;
     options.antialiased = scene.antialiased;

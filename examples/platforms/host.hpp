@@ -41,6 +41,9 @@ struct Order {
             std::fprintf(stderr, "warning: %s\n", note.c_str());
         }
         view = scene.views.front();
+        if (view.lens != degs::LensKind::Pinhole) { // which a table of views would take
+            std::fprintf(stderr, "warning: The camera has a lens; this program draws a pinhole.\n");
+        }
         const int width = argc > 3 ? std::atoi(argv[3]) : 64;
         const double factor = double(width) / view.width;
         view.height = int(std::lround(view.height * factor));

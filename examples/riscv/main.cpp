@@ -52,6 +52,11 @@ std::vector<View> chosen_views(const degs::MemoryScene& scene, const Arguments& 
         const View& whole = scene.views[camera];
         views.push_back(arguments.crop.width > 0 ? cropped(whole, arguments.crop) : whole);
     }
+    for (const View& view : views) {
+        if (view.lens != degs::LensKind::Pinhole) { // which a table of views would take
+            std::fprintf(stderr, "warning: A camera has a lens; the firmware draws a pinhole.\n");
+        }
+    }
     return views;
 }
 

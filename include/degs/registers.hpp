@@ -43,10 +43,24 @@ enum class Register : std::uint32_t {
     WorkspaceNeeded = 0x128,
     Frames = 0x130,
     Dropped = 0x134,
+    ViewCount = 0x140,
+    View = 0x144,
+    Views = 0x148,
+    ViewsDrawn = 0x150,
+    ViewScale = 0x154,
+    ViewAddress = 0x158,
+    ViewCycles = 0x160,
+    ViewFragments = 0x168,
+    ViewWidth = 0x170,
+    ViewHeight = 0x174,
+    ViewX = 0x178,
+    ViewY = 0x17C,
+    ViewShown = 0x200,
+    ViewEntry = 0x210,
 };
-constexpr std::uint32_t kRegisterBytes = 0x138;
+constexpr std::uint32_t kRegisterBytes = 0x214;
 constexpr std::uint32_t kAcceleratorId = 0x53476544; ///< "DeGS" as bytes
-constexpr std::uint32_t kAcceleratorVersion = 0x00010002;
+constexpr std::uint32_t kAcceleratorVersion = 0x00010003;
 
 // Bits of Control, Status, and of IrqEnable and IrqStatus.
 constexpr std::uint32_t kControlStart = 1U << 0U;
@@ -81,7 +95,42 @@ enum class AcceleratorError : std::uint32_t {
     BusError = 10,      ///< memory refused an access while the frame was rendered
     SceneChanged = 11,  ///< the scene was written while the frame was rendered
     OutOfMemory = 12,   ///< of the host that simulates
+    BadViewCount = 13,  ///< more views than kMostViews
+    BadFoveation = 14,  ///< a gaze that is not in the image, or angles that are not in order
 };
 constexpr std::uint64_t kBaseAlignment = 64; ///< B
+
+/// Byte offsets in an entry of the table of views, which has the layout of registers.
+enum class ViewField : std::uint32_t {
+    FrameBuffer = 0x000,
+    Width = 0x008,
+    Height = 0x00C,
+    FocalX = 0x010,
+    FocalY = 0x018,
+    Axes = 0x020,
+    Position = 0x068,
+    ShiftX = 0x080,
+    ShiftY = 0x088,
+    OriginX = 0x090,
+    OriginY = 0x094,
+    Lens = 0x098,
+    Radial = 0x0A0,
+    Denominator = 0x0C0,
+    Tangential = 0x0D8,
+    GazeX = 0x0E8,
+    GazeY = 0x0F0,
+    Fovea = 0x0F8,
+    Periphery = 0x100,
+};
+constexpr std::uint32_t kViewBytes = 0x140; ///< of an entry
+constexpr std::uint32_t kMostViews = 64;    ///< of a table
+
+enum class LensKind : std::uint32_t { Pinhole = 0, OpenCv = 1, Fisheye = 2 };
+
+/// ErrorDetail of something that is wrong in the table: the entry, counted from 1, in the upper
+/// half, and the offset in it in the lower half. The upper half of a register's offset is 0.
+constexpr std::uint32_t detail_of_view(std::uint32_t entry, ViewField field) {
+    return (entry + 1) << 16U | static_cast<std::uint32_t>(field);
+}
 
 } // namespace degs

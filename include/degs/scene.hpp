@@ -5,12 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "degs/registers.hpp"
+
 namespace degs {
 
 /// A scene as the bytes that an accelerator reads from a platform's memory, with its views.
 struct MemoryScene {
-    /// A pinhole camera: what the registers Width to OriginY take. Pixels are square units of the
-    /// focal lengths; +x of a camera is right, +y down, +z forward.
+    /// A camera: what an entry of the table of views takes, and, of a pinhole, the registers Width
+    /// to OriginY. Pixels are square units of the focal lengths; +x of a camera is right, +y down,
+    /// +z forward.
     struct View {
         std::string name;
         int width = 0, height = 0;                    ///< px
@@ -19,6 +22,8 @@ struct MemoryScene {
         double position[3] = {0, 0, 0};               ///< in world space
         double shift_x = 0, shift_y = 0; ///< of the principal point from the image's middle, px
         int origin_x = 0, origin_y = 0;  ///< of the image in its raster, px
+        LensKind lens = LensKind::Pinhole;
+        double radial[4] = {}, denominator[3] = {}, tangential[2] = {}; ///< of the lens
     };
     std::vector<unsigned char> geometry; ///< 11 floats per Gaussian, see docs/accelerator.md
     std::vector<unsigned char> sh;       ///< 3 (degree + 1)^2 floats per Gaussian

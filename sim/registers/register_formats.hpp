@@ -9,7 +9,9 @@ namespace degs::sim {
 
 /// The table of docs/accelerator.md.
 std::string registers_markdown();
-/// A header of C11: offsets, bits and values as macros.
+/// The table of the same page of an entry of the table of views.
+std::string view_entry_markdown();
+/// A header of C11: offsets, bits and values as macros, those of an entry likewise.
 std::string registers_c();
 /// CMSIS-SVD 1.3: a device of one peripheral at address 0. Registers of several words are arrays.
 std::string registers_svd();

@@ -68,6 +68,18 @@ std::string defines(const RegisterInfo& info) {
     return lines;
 }
 
+std::string entry_defines(const ViewFieldInfo& field) {
+    const std::string words = field.words == 1 ? "" : std::to_string(field.words) + " words: ";
+    std::string lines = define(std::string("ENTRY_") + field.name,
+                               hexadecimal(static_cast<std::uint32_t>(field.offset), 3) + "u",
+                               words + field.meaning);
+    for (const RegisterValue& value : field.values) {
+        lines += define(std::string(field.name) + "_" + value.name,
+                        std::to_string(value.value) + "u", value.meaning);
+    }
+    return lines;
+}
+
 } // namespace
 
 std::string registers_markdown() {
@@ -78,6 +90,21 @@ std::string registers_markdown() {
                  info.name + " | " + std::to_string(info.words) + " | " + access_word(info.access) +
                  " | " + (info.reset == 0 ? "" : hexadecimal(info.reset, 8) + ": ") + info.meaning +
                  (more.empty() ? "" : ". " + more) + " |\n";
+    }
+    return table;
+}
+
+std::string view_entry_markdown() {
+    std::string table = "| offset | name | words | meaning |\n|---|---|---|---|\n";
+    for (const ViewFieldInfo& field : view_layout()) {
+        std::string more;
+        for (const RegisterValue& value : field.values) {
+            more += (more.empty() ? ". " : "; ") + std::to_string(value.value) + " " + value.name +
+                    ": " + value.meaning;
+        }
+        table += "| " + hexadecimal(static_cast<std::uint32_t>(field.offset), 3) + " | " +
+                 field.name + " | " + std::to_string(field.words) + " | " + field.meaning + more +
+                 " |\n";
     }
     return table;
 }
@@ -97,6 +124,13 @@ std::string registers_c() {
         define("BASE_ALIGNMENT", std::to_string(kBaseAlignment) + "u", "of all addresses, bytes");
     for (const RegisterInfo& info : register_map()) {
         text += "\n" + defines(info);
+    }
+    text +=
+        "\n/* An entry of the table of views: its size, and offsets of its fields in bytes. */\n";
+    text += define("VIEW_BYTES", std::to_string(kViewBytes) + "u", "of an entry");
+    text += define("MOST_VIEWS", std::to_string(kMostViews) + "u", "entries of a table");
+    for (const ViewFieldInfo& field : view_layout()) {
+        text += entry_defines(field);
     }
     return text + "\n#endif\n";
 }

@@ -16,6 +16,8 @@
 #include "sim/text/warnings.hpp"
 #include "sim/trace/trace_options.hpp"
 #include "sim/view/view.hpp"
+#include "sim/view/view_group.hpp"
+#include "splat/frame/projection.hpp"
 
 namespace degs::sim {
 namespace {
@@ -25,6 +27,7 @@ struct SocOptions {
     std::vector<std::string> overrides;
     std::string memory;
     ViewRequest view;
+    GroupRequest group;
     std::vector<double> loads;
     int cores = 4;
     std::string pattern = "stream";
@@ -49,25 +52,25 @@ std::vector<double> loads_of(const SocOptions& options, double peak_gb_per_s) {
 RunConfig soc_config(const SocOptions& options, dram::Config& memory) {
     const ConfigSource source = ConfigSource::from_file(options.config, options.overrides);
     RunConfig config = load_run_config(source);
-    print_warnings(check_platform_keys(source, config));
+    const GroupRequest& group = options.group;
+    print_warnings(
+        check_platform_keys(source, config, group.images() > 1 || group.foveation.has_value()));
     if (!options.memory.empty()) {
         ConfigSource::from_file(options.memory).load(memory);
     }
     return config;
 }
 
-/// The view, which has no lens: the registers of an accelerator hold none.
-View loaded_view(const SocOptions& options, const RunConfig& config) {
-    View view = load_view(options.view);
-    print_warnings(view.scene.notes);
-    const bool ignored = config.accelerator().data_path().rules.lens == LensRule::Pinhole;
-    if (!ignored && !view.camera.lens.is_pinhole()) {
-        throw InputError("Camera " + std::to_string(view.camera.id) +
-                         " has a lens with distortion (" + view.camera.lens.name() +
-                         "), for which an accelerator on a platform has no registers; "
-                         "pipeline.rules.lens: pinhole leaves it out.");
+/// The images of a frame. Throws InputError for a lens that the design cannot draw.
+void put_images(const SocOptions& options, View& view, SocRequest& request) {
+    const std::vector<Camera> cameras = cameras_of_frame(options.view, options.group, view.scene);
+    const AcceleratorConfig& config = request.config.accelerator();
+    for (const Camera& camera : cameras) {
+        check_projection(camera, projection_of(config.data_path(), view.scene.traits.antialiased));
     }
-    return view;
+    view.camera = cameras.front();
+    request.foveation = options.group.foveation;
+    request.images = images_of(cameras, request.foveation);
 }
 
 void run(const SocOptions& options) {
@@ -79,7 +82,9 @@ void run(const SocOptions& options) {
         options.pattern == "stream" ? CpuTraffic::Pattern::Stream : CpuTraffic::Pattern::Random;
     request.reads_per_write = options.reads_per_write;
     request.refresh_hz = options.refresh_hz;
-    const View view = loaded_view(options, request.config);
+    View view = load_view(options.view);
+    print_warnings(view.scene.notes);
+    put_images(options, view, request);
     const OutputFolder out(options.out, {"soc.json", "soc.svg"});
     request.timeline = timeline_of(options.trace);
     const SocResult result = run_soc(request, view);
@@ -130,6 +135,8 @@ void add_soc_command(CLI::App& program) {
         "soc", "run the accelerator on a platform with cores and a display that use the memory");
     add_config_option(*command, options->config)->required();
     add_view_options(*command, options->view);
+    add_group_options(*command, options->group);
+    add_foveation_option(*command, options->group);
     command
         ->add_option("--memory", options->memory,
                      "configuration file of the platform's memory (configs/memory/*.yaml); "

@@ -2,6 +2,7 @@
 #include "sim/soc/display.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "tlm/has_process.hpp"
 #include "tlm/set_access.hpp"
@@ -9,38 +10,48 @@
 namespace degs::sim {
 
 Display::Display(const sc_core::sc_module_name& name, const Config& config)
-    : sc_core::sc_module(name), out("out"), config_(config), row_(4 * config.width) {
+    : sc_core::sc_module(name), out("out"), config_(config) {
     DEGS_HAS_PROCESS(Display);
     SC_THREAD(run);
 }
 
-void Display::show(std::uint64_t frame_buffer) {
-    frame_buffer_ = frame_buffer;
-    on_ = true;
+void Display::show(std::vector<Part> frame) {
+    frame_ = std::move(frame);
     turned_on_.notify(sc_core::SC_ZERO_TIME);
 }
 
 void Display::run() {
-    while (!on_) {
+    while (frame_.empty()) {
         sc_core::wait(turned_on_);
     }
-    const sc_core::sc_time row_time(1.0 / config_.refresh_hz / config_.height, sc_core::SC_SEC);
-    sc_core::sc_time due = sc_core::sc_time_stamp();
+    due_ = sc_core::sc_time_stamp();
     for (;; ++stats_.pictures) {
-        const std::uint64_t picture = frame_buffer_;
-        for (int y = 0; y < config_.height; ++y, ++stats_.rows) {
-            if (due > sc_core::sc_time_stamp()) {
-                sc_core::wait(due - sc_core::sc_time_stamp());
+        show_picture(std::vector<Part>(frame_)); // which may be replaced meanwhile
+    }
+}
+
+void Display::show_picture(const std::vector<Part>& picture) {
+    int rows = 0;
+    for (const Part& part : picture) {
+        rows += part.height;
+    }
+    const sc_core::sc_time row_time(1.0 / config_.refresh_hz / rows, sc_core::SC_SEC);
+    for (const Part& part : picture) {
+        const std::uint64_t row_bytes = 4 * static_cast<std::uint64_t>(part.width);
+        for (int y = 0; y < part.height; ++y, ++stats_.rows) {
+            if (due_ > sc_core::sc_time_stamp()) {
+                sc_core::wait(due_ - sc_core::sc_time_stamp());
             }
-            due += row_time;
-            const sc_core::sc_time there = fetch_row(picture + y * row_.size());
-            stats_.underruns += there > due ? 1 : 0;
+            due_ += row_time;
+            const sc_core::sc_time there = fetch_row(part.address + y * row_bytes, part.width);
+            stats_.underruns += there > due_ ? 1 : 0;
         }
     }
 }
 
 // All requests of a row are made at once; the date at which the last one is answered.
-sc_core::sc_time Display::fetch_row(std::uint64_t address) {
+sc_core::sc_time Display::fetch_row(std::uint64_t address, int width) {
+    row_.resize(4 * static_cast<std::size_t>(width));
     sc_core::sc_time there = sc_core::sc_time_stamp();
     for (std::size_t at = 0; at < row_.size(); at += config_.request_bytes) {
         const auto bytes = static_cast<unsigned int>(

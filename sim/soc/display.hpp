@@ -10,13 +10,13 @@
 
 namespace degs::sim {
 
-/// Display controller: reads a frame buffer of RGBA8 at the rate of its screen, row by row. A row
-/// is fetched while the row before it is shown; one that comes later is an underrun. The next
-/// picture starts with the buffer that was shown to it last. Not modelled: blanking, compression.
+/// Display controller: reads a frame of RGBA8 at the rate of its screen, row by row: the rows of
+/// every drawn view, one view behind the other, each with as much time as any other. A row is
+/// fetched while the row before it is shown; one that comes later is an underrun. The next picture
+/// starts with the frame that was shown to it last. Not modelled: blanking, compression.
 class Display : public sc_core::sc_module {
 public:
     struct Config {
-        int width = 1920, height = 1080; ///< px
         double refresh_hz = 60;
         unsigned int request_bytes = 256;
     };
@@ -29,17 +29,24 @@ public:
 
     Display(const sc_core::sc_module_name& name, const Config& config);
 
-    /// Sets the buffer to read from the next picture on. Before the first call nothing is shown.
-    void show(std::uint64_t frame_buffer);
+    /// The pixels of a drawn view, row by row.
+    struct Part {
+        std::uint64_t address = 0;
+        int width = 0, height = 0; ///< px
+    };
+    /// Sets what is read from the next picture on, at least one row. Before the first call nothing
+    /// is shown.
+    void show(std::vector<Part> frame);
     const Stats& stats() const { return stats_; }
 
 private:
     void run();
-    sc_core::sc_time fetch_row(std::uint64_t address);
+    void show_picture(const std::vector<Part>& picture);
+    sc_core::sc_time fetch_row(std::uint64_t address, int width);
 
     Config config_;
-    std::uint64_t frame_buffer_ = 0;
-    bool on_ = false;
+    std::vector<Part> frame_; // empty until it is turned on
+    sc_core::sc_time due_;    // of the next row
     std::vector<unsigned char> row_;
     Stats stats_;
     sc_core::sc_event turned_on_;

@@ -19,7 +19,7 @@ struct Unfollowed {
 };
 
 constexpr const char* kOwnMemory = "the platform has a memory of its own, --memory";
-constexpr const char* kOneView = "the platform renders one view at a time";
+constexpr const char* kOneFrame = "the platform starts a frame when the one before has ended";
 constexpr const char* kFloatScene = "the scene lies in the platform's memory as floats";
 constexpr const char* kByRegister = "the register FORMAT says it";
 constexpr const char* kNoBill = "nothing is billed on a platform";
@@ -33,18 +33,15 @@ std::map<std::string, std::string> values_of(const std::vector<KeyDoc>& document
 }
 
 /// The accelerator itself says which of its values a scene of floats replaces.
-std::vector<Unfollowed> unfollowed_by(const RunConfig& config) {
-    std::vector<Unfollowed> all{{"memory.model", kOwnMemory},
-                                {"memory.bandwidth_gb_per_s", kOwnMemory},
-                                {"memory.latency_ns", kOwnMemory},
-                                {"memory.access_bytes", kOwnMemory},
-                                {"memory.urgent_share", kOwnMemory},
-                                {"memory.lpddr5", kOwnMemory},
-                                {"projection.shared_by_views", kOneView},
-                                {"grouping.shared_by_views", kOneView},
-                                {"frames_in_flight", kOneView},
-                                {"traffic.pixel_bytes", kByRegister},
-                                {"cost", kNoBill}};
+std::vector<Unfollowed> unfollowed_by(const RunConfig& config, bool has_views) {
+    std::vector<Unfollowed> all{
+        {"memory.model", kOwnMemory},         {"memory.bandwidth_gb_per_s", kOwnMemory},
+        {"memory.latency_ns", kOwnMemory},    {"memory.access_bytes", kOwnMemory},
+        {"memory.urgent_share", kOwnMemory},  {"memory.lpddr5", kOwnMemory},
+        {"traffic.pixel_bytes", kByRegister}, {"cost", kNoBill}};
+    if (!has_views || config.accelerator().view_sharing() != ViewSharing::Nothing) {
+        all.push_back({"frames_in_flight", kOneFrame}); // else each view is a frame
+    }
     const std::unique_ptr<AcceleratorConfig> floats = config.accelerator().clone();
     floats->read_floats();
     const auto replaced =
@@ -64,7 +61,8 @@ bool lies_in(const std::string& path, const std::string& section) {
 
 } // namespace
 
-std::vector<std::string> check_platform_keys(const ConfigSource& source, const RunConfig& config) {
+std::vector<std::string> check_platform_keys(const ConfigSource& source, const RunConfig& config,
+                                             bool has_views) {
     const auto defaults = values_of(document(default_run_config(config.kind(), {})));
     const std::vector<KeyDoc> keys = document(config);
     std::vector<std::string> warnings;
@@ -73,7 +71,7 @@ std::vector<std::string> check_platform_keys(const ConfigSource& source, const R
                  [](const std::string& warning) {
                      return warning.find("key 'memory.") == std::string::npos;
                  });
-    for (const Unfollowed& unfollowed : unfollowed_by(config)) {
+    for (const Unfollowed& unfollowed : unfollowed_by(config, has_views)) {
         for (const KeyDoc& key : keys) {
             const std::string place = source.place(key.path);
             if (!lies_in(key.path, unfollowed.path) || key.type == "section" ||

@@ -11,6 +11,51 @@
 #include "tlm/set_access.hpp"
 
 namespace degs::sim {
+namespace {
+
+degs_camera camera_words(const Camera& camera) {
+    degs_camera view{};
+    view.width = static_cast<std::uint32_t>(camera.width);
+    view.height = static_cast<std::uint32_t>(camera.height);
+    view.focal_x = camera.fx;
+    view.focal_y = camera.fy;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int i = 0; i < 3; ++i) {
+            view.axes[3 * axis + i] = camera.camera_to_world[axis][i];
+        }
+        view.position[axis] = camera.position[axis];
+    }
+    return view;
+}
+
+degs_view view_of(const Camera& camera, const std::optional<Foveation>& foveation) {
+    degs_view view{};
+    view.camera = camera_words(camera);
+    view.window = {camera.shift.x, camera.shift.y, static_cast<std::uint32_t>(camera.origin.x),
+                   static_cast<std::uint32_t>(camera.origin.y)};
+    const LensCoefficients& lens = camera.lens.coefficients();
+    view.lens.kind = static_cast<std::uint32_t>(lens.kind);
+    std::copy(lens.radial.begin(), lens.radial.end(), view.lens.radial);
+    std::copy(lens.denominator.begin(), lens.denominator.end(), view.lens.denominator);
+    std::copy(lens.tangential.begin(), lens.tangential.end(), view.lens.tangential);
+    if (foveation) {
+        view.gaze = {foveation->centre.x, foveation->centre.y, foveation->fovea,
+                     foveation->periphery};
+    }
+    return view;
+}
+
+/// The size of the frame buffer of an image, whose levels lie one behind the other.
+std::uint64_t bytes_of(const FoveatedView& image) {
+    constexpr std::uint64_t kAlignment = DEGS_BASE_ALIGNMENT;
+    std::uint64_t bytes = 0;
+    for (const FoveatedLevel& level : image.levels) {
+        bytes += (4 * level.camera.pixels() + kAlignment - 1) / kAlignment * kAlignment;
+    }
+    return bytes;
+}
+
+} // namespace
 
 SocHost::SocHost(const sc_core::sc_module_name& name, std::uint64_t registers, std::uint64_t memory,
                  std::uint64_t bytes)
@@ -94,26 +139,44 @@ void SocHost::load_scene(const GaussianCloud& cloud) {
     degs_set_scene(&device_, &scene);
 }
 
-void SocHost::set_camera(const Camera& camera) {
-    if (!camera.is_centred() || !camera_.is_centred()) {
-        const degs_window window{camera.shift.x, camera.shift.y,
-                                 static_cast<std::uint32_t>(camera.origin.x),
-                                 static_cast<std::uint32_t>(camera.origin.y)};
-        degs_set_window(&device_, &window);
-    }
-    camera_ = camera;
-    degs_camera view{};
-    view.width = static_cast<std::uint32_t>(camera.width);
-    view.height = static_cast<std::uint32_t>(camera.height);
-    view.focal_x = camera.fx;
-    view.focal_y = camera.fy;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int i = 0; i < 3; ++i) {
-            view.axes[3 * axis + i] = camera.camera_to_world[axis][i];
+void SocHost::set_images(const std::vector<FoveatedView>& images,
+                         const std::optional<Foveation>& foveation) {
+    views_.clear();
+    for (const FoveatedView& image : images) {
+        views_.push_back(view_of(image.camera, foveation));
+        for (Target& target : targets_) {
+            target.frame_buffers.push_back(reserve(bytes_of(image)));
         }
-        view.position[axis] = camera.position[axis];
     }
-    degs_set_camera(&device_, &view);
+    in_table_ = images.size() > 1 || foveation || !images.front().camera.lens.is_pinhole();
+    for (Target& target : targets_) {
+        if (in_table_) {
+            target.table = reserve(views_.size() * DEGS_VIEW_BYTES);
+            write_table(target);
+        }
+    }
+    if (!in_table_) {
+        if (!images.front().camera.is_centred()) {
+            degs_set_window(&device_, &views_.front().window);
+        }
+        degs_set_camera(&device_, &views_.front().camera);
+    }
+}
+
+void SocHost::write_table(const Target& target) {
+    std::vector<unsigned char> table(views_.size() * DEGS_VIEW_BYTES);
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+        views_[v].frame_buffer = target.frame_buffers[v];
+        degs_encode_view(&views_[v], table.data() + v * DEGS_VIEW_BYTES);
+    }
+    debug(tlm::TLM_WRITE_COMMAND, target.table, table);
+}
+
+void SocHost::set_target(const Target& target) {
+    degs_set_frame_buffer(&device_, target.frame_buffers.front(), DEGS_FORMAT_RGBA8);
+    if (in_table_) {
+        degs_set_views(&device_, target.table, static_cast<std::uint32_t>(views_.size()));
+    }
 }
 
 std::uint32_t SocHost::start_and_wait() {
@@ -130,14 +193,10 @@ std::uint32_t SocHost::start_and_wait() {
 
 // A frame without a workspace ends at once and reports the bytes that it needs.
 void SocHost::reserve_memory() {
-    const std::uint64_t bytes = camera_.pixels() * 4;
-    for (std::uint64_t& buffer : frame_buffers_) {
-        buffer = reserve(bytes);
-    }
     if (degs_probe(&device_) == 0) {
         throw std::runtime_error("the driver does not know these registers");
     }
-    degs_set_frame_buffer(&device_, frame_buffers_[0], DEGS_FORMAT_RGBA8);
+    set_target(targets_[0]);
     degs_set_workspace(&device_, next_, 0);
     if (const std::uint32_t error = start_and_wait(); error != DEGS_ERROR_CODE_SMALL_WORKSPACE) {
         throw std::runtime_error("the accelerator did not ask for a workspace, error " +
@@ -149,8 +208,8 @@ void SocHost::reserve_memory() {
 
 SocFrame SocHost::render() {
     SocFrame frame;
-    frame.frame_buffer = frame_buffers_[frames_++ % frame_buffers_.size()];
-    degs_set_frame_buffer(&device_, frame.frame_buffer, DEGS_FORMAT_RGBA8);
+    const Target& target = targets_[frames_++ % targets_.size()];
+    set_target(target);
     const sc_core::sc_time start = sc_core::sc_time_stamp();
     if (const std::uint32_t error = start_and_wait(); error != DEGS_ERROR_CODE_NONE) {
         throw std::runtime_error("a frame ended with error " + std::to_string(error) +
@@ -163,13 +222,35 @@ SocFrame SocHost::render() {
     frame.bytes_read = counters.bytes_read;
     frame.bytes_written = counters.bytes_written;
     frame.fragments = counters.fragments;
+    frame.views = in_table_ ? drawn_views() : std::vector<degs_drawn_view>{only_view(target)};
     return frame;
 }
 
-std::vector<unsigned char> SocHost::pixels(const SocFrame& frame) {
-    std::vector<unsigned char> bytes(camera_.pixels() * 4);
-    debug(tlm::TLM_READ_COMMAND, frame.frame_buffer, bytes);
-    return bytes;
+std::vector<degs_drawn_view> SocHost::drawn_views() {
+    std::vector<degs_drawn_view> views(degs_views_drawn(&device_));
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        degs_read_view(&device_, static_cast<std::uint32_t>(v), &views[v]);
+    }
+    return views;
+}
+
+// The program knows all about the one view that registers describe, and reads none of them.
+degs_drawn_view SocHost::only_view(const Target& target) const {
+    degs_drawn_view view{};
+    view.scale = 1;
+    view.address = target.frame_buffers.front();
+    view.width = views_.front().camera.width;
+    view.height = views_.front().camera.height;
+    return view;
+}
+
+std::vector<std::vector<unsigned char>> SocHost::pixels(const SocFrame& frame) {
+    std::vector<std::vector<unsigned char>> all;
+    for (const degs_drawn_view& view : frame.views) {
+        all.emplace_back(std::size_t{4} * view.width * view.height);
+        debug(tlm::TLM_READ_COMMAND, view.address, all.back());
+    }
+    return all;
 }
 
 } // namespace degs::sim

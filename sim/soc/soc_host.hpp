@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <systemc>
@@ -11,7 +12,7 @@
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include "degs/degs_driver.h"
-#include "splat/model/camera.hpp"
+#include "sim/view/foveated_view.hpp"
 #include "splat/model/gaussian.hpp"
 
 namespace degs::sim {
@@ -19,8 +20,8 @@ namespace degs::sim {
 /// A frame as the driver of the accelerator saw it.
 struct SocFrame {
     std::uint64_t cycles = 0, bytes_read = 0, bytes_written = 0, fragments = 0;
-    double latency_ns = 0; ///< start written to interrupt seen
-    std::uint64_t frame_buffer = 0;
+    double latency_ns = 0;              ///< start written to interrupt seen
+    std::vector<degs_drawn_view> views; ///< whose pixels are in memory
 };
 
 /// The processor that drives the accelerator, as a program on it would: puts a scene into memory,
@@ -42,26 +43,39 @@ public:
 
     // The functions below are for the program only.
     void load_scene(const GaussianCloud& cloud);
-    void set_camera(const Camera& camera);
-    /// Asks the accelerator how much it needs, and reserves that and two frame buffers. Throws
-    /// InputError if memory is too small.
+    /// The images of a frame, with their levels. Registers describe the camera of one pinhole,
+    /// a table in memory anything else.
+    void set_images(const std::vector<FoveatedView>& images,
+                    const std::optional<Foveation>& foveation);
+    /// Asks the accelerator how much it needs, and reserves that and two frame buffers for each
+    /// image. Throws InputError if memory is too small.
     void reserve_memory();
-    /// Renders into one of the frame buffers in turn.
+    /// Renders into one of the two sets of frame buffers in turn.
     SocFrame render();
-    /// RGBA8.
-    std::vector<unsigned char> pixels(const SocFrame& frame);
+    /// RGBA8, of each drawn view.
+    std::vector<std::vector<unsigned char>> pixels(const SocFrame& frame);
 
 private:
+    /// Where a frame is drawn.
+    struct Target {
+        std::vector<std::uint64_t> frame_buffers; // of the views
+        std::uint64_t table = 0;
+    };
     void run();
     std::uint32_t access(tlm::tlm_command command, std::uint32_t offset, std::uint32_t value);
     std::uint32_t start_and_wait();
     std::uint64_t reserve(std::uint64_t bytes);
+    void set_target(const Target& target);
+    void write_table(const Target& target);
+    std::vector<degs_drawn_view> drawn_views();
+    degs_drawn_view only_view(const Target& target) const;
     void debug(tlm::tlm_command command, std::uint64_t address, std::vector<unsigned char>& data);
 
     degs_device device_;
     std::uint64_t registers_, next_, end_; // next_ to end_: memory that is not reserved
-    Camera camera_;
-    std::array<std::uint64_t, 2> frame_buffers_{};
+    std::vector<degs_view> views_;         // of a frame
+    bool in_table_ = false;                // the views, and not in registers
+    std::array<Target, 2> targets_;
     std::size_t frames_ = 0;
     bool finished_ = false;
 };

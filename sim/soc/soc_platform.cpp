@@ -49,8 +49,6 @@ SocPlatform::SocPlatform(const sc_core::sc_module_name& name, const SocRequest& 
     accelerator_.irq.bind(irq_);
     accelerator_.mem.bind(bus_.in[kAccelerator]);
     Display::Config screen;
-    screen.width = view.camera.width;
-    screen.height = view.camera.height;
     screen.refresh_hz = request.refresh_hz > 0 ? request.refresh_hz : 1;
     display_ = std::make_unique<Display>("display", screen);
     display_->out.bind(bus_.in[kDisplay]);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The results of degs soc, as JSON and as words.
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "base/visible_text.hpp"
@@ -11,6 +13,36 @@
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
+namespace {
+
+/// The drawn views of the frame without load, the levels of an image one behind the other.
+nlohmann::ordered_json views_json(const SocResult& result) {
+    nlohmann::ordered_json views = nlohmann::ordered_json::array();
+    std::size_t level = 0;
+    for (const degs_drawn_view& view : result.points.front().frame.views) {
+        level = views.empty() || views.back()["image"] != view.entry ? 0 : level + 1;
+        views.push_back({{"image", view.entry},
+                         {"scale", view.scale},
+                         {"rectangle", view.shown},
+                         {"width", view.width},
+                         {"height", view.height},
+                         {"finished_cycles", view.cycles},
+                         {"fragments", view.fragments},
+                         {"psnr_db", result.images[view.entry].psnr_db},
+                         {"crc32", result.images[view.entry].crc32s[level]}});
+    }
+    return views;
+}
+
+/// "2 × 1280×720", and how many views draw them if they are others.
+std::string frame_words(const SocRequest& request, const View& view, const SocResult& result) {
+    const std::size_t images = std::max<std::size_t>(1, request.images.size());
+    const std::size_t views = result.points.front().frame.views.size();
+    return (images > 1 ? std::to_string(images) + " × " : "") + size_words(view.camera) +
+           (views > images ? " in " + std::to_string(views) + " views" : "");
+}
+
+} // namespace
 
 nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
                                 const SocResult& result) {
@@ -30,6 +62,9 @@ nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
                        {"rows", result.display.rows},
                        {"underruns", result.display.underruns}};
     json["psnr_db"] = result.psnr_db;
+    if (result.points.front().frame.views.size() > 1) {
+        json["views"] = views_json(result);
+    }
     json["points"] = nlohmann::ordered_json::array();
     for (const SocPoint& p : result.points) {
         json["points"].push_back({{"offered_gb_per_s", p.offered_gb_per_s},
@@ -63,8 +98,9 @@ std::string soc_words(const SocRequest& request, const View& view, const SocResu
                    three_digits(p.frame.latency_ns / alone) + "x"});
     }
     const std::string heading = request.config.accelerator().name + " · " + view.scene.name +
-                                " · " + size_words(view.camera) + " · " + request.memory.name +
-                                ", " + three_decimals(request.memory.peak_gb_per_s()) + " GB/s · " +
+                                " · " + frame_words(request, view, result) + " · " +
+                                request.memory.name + ", " +
+                                three_decimals(request.memory.peak_gb_per_s()) + " GB/s · " +
                                 std::to_string(request.cores) + " cores";
     return visible(heading) + "\n" + table.text() + "pixels  the same under every load · " +
            three_digits(result.psnr_db) + " dB against double precision, 8 bits per channel\n" +

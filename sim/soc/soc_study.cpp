@@ -2,9 +2,11 @@
 #include "sim/soc/soc_study.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "base/ratio.hpp"
+#include "scene/files/image_io.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/simulation/completed_run.hpp"
 #include "sim/simulation/run_result.hpp"
@@ -13,6 +15,7 @@
 #include "sim/text/words.hpp"
 #include "sim/view/frame_warnings.hpp"
 #include "sim/view/view.hpp"
+#include "splat/foveation/compose.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "splat/reference/reference_renderer.hpp"
 
@@ -39,13 +42,22 @@ Image image_of(const std::vector<unsigned char>& rgba, const Camera& camera) {
     return image;
 }
 
-double psnr(const std::vector<unsigned char>& rgba, const FrameWorkload& frame) {
+Image reference_of(const FrameWorkload& frame) {
     ReferenceCounts counts;
     Image reference = render_reference(frame, counts);
     for (float& value : reference.rgb) {
         value = std::clamp(value, 0.0F, 1.0F);
     }
-    return compare_images(reference, image_of(rgba, frame.camera)).psnr_db;
+    return reference;
+}
+
+/// The image that its levels make up.
+Image whole(const FoveatedView& image, const std::vector<Image>& levels) {
+    std::vector<const Image*> pointers;
+    for (const Image& level : levels) {
+        pointers.push_back(&level);
+    }
+    return levels.size() == 1 ? levels.front() : compose(image.camera, image.levels, pointers);
 }
 
 /// A frame for each load, one after the other in one simulation.
@@ -53,17 +65,18 @@ class StudyRuns {
 public:
     StudyRuns(const SocRequest& request, SocPlatform& platform, const View& view)
         : request_(request), platform_(platform), cloud_(as_floats(view.scene.cloud)),
-          camera_(view.camera), antialiased_(view.scene.traits.antialiased) {}
+          images_(request.images.empty() ? images_of({view.camera}, {}) : request.images),
+          antialiased_(view.scene.traits.antialiased) {}
 
     void operator()(SocHost& host) {
         host.load_scene(cloud_);
-        host.set_camera(camera_);
+        host.set_images(images_, request_.foveation);
         host.reserve_memory();
         for (const double load : request_.loads) {
             platform_.set_load(load);
             sc_core::wait(sc_core::sc_time(kSettleUs, sc_core::SC_US));
             measure(host, load);
-            const std::vector<unsigned char> pixels = host.pixels(result.points.back().frame);
+            const Pixels pixels = host.pixels(result.points.back().frame);
             if (pixels_.empty()) {
                 pixels_ = pixels;
             } else if (pixels_ != pixels) {
@@ -74,17 +87,48 @@ public:
         result.display = platform_.display().stats();
     }
     void judge() {
-        const AcceleratorConfig& config = request_.config.accelerator();
-        const FrameWorkload frame =
-            make_frame_workload(cloud_, camera_, config.tile_size_px(), config.tile_mode(),
-                                config.data_path().rules.options(antialiased_));
-        result.psnr_db = psnr(pixels_, frame);
-        result.warnings = near_plane_warnings(frame);
+        result.psnr_db = std::numeric_limits<double>::infinity();
+        std::size_t view = 0;
+        for (const FoveatedView& image : images_) {
+            result.images.push_back(judge(image, view));
+            result.psnr_db = std::min(result.psnr_db, result.images.back().psnr_db);
+            view += image.levels.size();
+        }
     }
 
     SocResult result;
 
 private:
+    using Pixels = std::vector<std::vector<unsigned char>>; // of each drawn view
+
+    /// `first`: the drawn view that is its finest level.
+    SocImage judge(const FoveatedView& image, std::size_t first) {
+        const AcceleratorConfig& config = request_.config.accelerator();
+        SocImage judged;
+        std::vector<Image> drawn;
+        std::vector<Image> references;
+        for (std::size_t v = 0; v < image.levels.size(); ++v) {
+            const FrameWorkload frame = make_frame_workload(
+                cloud_, image.levels[v].camera, config.tile_size_px(), config.tile_mode(),
+                config.data_path().rules.options(antialiased_));
+            references.push_back(reference_of(frame));
+            drawn.push_back(image_of(pixels_[first + v], frame.camera));
+            judged.crc32s.push_back(pixel_crc32(drawn.back()));
+            if (first + v == 0) {
+                result.warnings = near_plane_warnings(frame);
+            }
+        }
+        judged.psnr_db = compare_images(whole(image, references), whole(image, drawn)).psnr_db;
+        return judged;
+    }
+    static std::vector<Display::Part> parts_of(const SocFrame& frame) {
+        std::vector<Display::Part> parts;
+        for (const degs_drawn_view& view : frame.views) {
+            parts.push_back(
+                {view.address, static_cast<int>(view.width), static_cast<int>(view.height)});
+        }
+        return parts;
+    }
     void measure(SocHost& host, double load) {
         const std::uint64_t cpu = platform_.cpu_bytes();
         const Display::Stats shown = platform_.display().stats();
@@ -105,19 +149,31 @@ private:
         point.accelerator_gb_per_s = rate(point.frame.bytes_read + point.frame.bytes_written);
         result.points.push_back(point);
         if (request_.refresh_hz > 0) {
-            platform_.display().show(point.frame.frame_buffer);
+            platform_.display().show(parts_of(point.frame));
         }
     }
 
     const SocRequest& request_;
     SocPlatform& platform_;
     GaussianCloud cloud_;
-    Camera camera_;
+    std::vector<FoveatedView> images_;
     bool antialiased_;
-    std::vector<unsigned char> pixels_;
+    Pixels pixels_; // of the first frame
 };
 
 } // namespace
+
+std::vector<FoveatedView> images_of(const std::vector<Camera>& cameras,
+                                    const std::optional<Foveation>& foveation) {
+    std::vector<FoveatedView> images;
+    for (const Camera& camera : cameras) {
+        const PixelBox all{0, 0, camera.width - 1, camera.height - 1};
+        images.push_back({camera, foveation
+                                      ? levels_of(camera, *foveation)
+                                      : std::vector<FoveatedLevel>{{1, all, {0, 0}, camera}}});
+    }
+    return images;
+}
 
 SocResult run_soc(const SocRequest& request, const View& view) {
     const Stopwatch wall;

@@ -14,6 +14,7 @@
 #include "sim/soc/display.hpp"
 #include "sim/soc/soc_host.hpp"
 #include "sim/trace/trace_file.hpp"
+#include "sim/view/foveated_view.hpp"
 #include "sim/view/view.hpp"
 
 namespace degs::sim {
@@ -28,7 +29,13 @@ struct SocRequest {
     int reads_per_write = 2;
     double refresh_hz = 60;                   ///< of the display; 0: none
     std::optional<Timeline::Config> timeline; ///< of the accelerator
+    std::vector<FoveatedView> images;         ///< of a frame; empty: the camera of the view
+    std::optional<Foveation> foveation;       ///< of each image
 };
+
+/// The images of cameras, with the levels that draw them.
+std::vector<FoveatedView> images_of(const std::vector<Camera>& cameras,
+                                    const std::optional<Foveation>& foveation);
 
 struct SocPoint {
     double offered_gb_per_s = 0; ///< by the cores
@@ -40,9 +47,16 @@ struct SocPoint {
     SocFrame frame;
 };
 
+/// An image as it was in memory, or was made from the levels that were there.
+struct SocImage {
+    double psnr_db = 0;              ///< against the image in double precision, clamped to 0..1
+    std::vector<std::string> crc32s; ///< of its levels
+};
+
 struct SocResult {
     std::vector<SocPoint> points;
-    double psnr_db = 0; ///< frame buffer against the double-precision image, clamped to 0..1
+    double psnr_db = 0; ///< the least of the images
+    std::vector<SocImage> images;
     std::vector<std::string> warnings; ///< sentences about the frame
     Display::Stats display;
     double wall_s = 0;
@@ -51,7 +65,7 @@ struct SocResult {
 };
 
 /// Host, accelerator, display controller and cores on an AddressBus with an Lpddr5 memory: renders
-/// the view once per load. Once per process. Throws InputError if the scene does not fit,
+/// the frame once per load. Once per process. Throws InputError if the scene does not fit,
 /// std::logic_error if a frame's pixels depend on the load, std::runtime_error if the accelerator
 /// reports an error.
 SocResult run_soc(const SocRequest& request, const View& view);

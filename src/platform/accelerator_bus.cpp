@@ -68,6 +68,7 @@ tlm::tlm_response_status AcceleratorCore::write(std::uint32_t offset, std::uint3
         const bool clears = info->access == Access::WriteOneToClear;
         registers_.set_word(offset,
                             clears ? registers_.word(offset) & ~value : value & info->bits());
+        show_view();
         irq_changed_.notify(delay);
     }
     return tlm::TLM_OK_RESPONSE;
@@ -130,6 +131,7 @@ unsigned int AcceleratorCore::debug(tlm::tlm_generic_payload& payload) {
             break;
         }
         registers_.set_word(offset, word_from(payload.get_data_ptr() + done) & info->bits());
+        show_view();
         irq_changed_.notify(sc_core::SC_ZERO_TIME);
     }
     return done;

@@ -5,6 +5,8 @@
 #include <new>
 
 #include "degs/error.hpp"
+#include "scene/cameras/eyes.hpp"
+#include "splat/frame/shared_colours.hpp"
 
 namespace degs {
 namespace {
@@ -46,6 +48,7 @@ AcceleratorCore::AcceleratorCore(Accelerator& shell, const AcceleratorConfig& co
         });
     job_ = make_render_job(*config_);
     job_.keeps_results = false;
+    job_.is_open = true;
     job_.joined = std::make_unique<sc_core::sc_event>();
     if (options.timeline != nullptr) {
         job_.recorder = std::make_unique<SlotRecorder>(options.timeline);
@@ -127,21 +130,17 @@ AcceleratorFault AcceleratorCore::prepare() {
         registers_.set_pair(counter, 0);
     }
     registers_.set(Register::Dropped, 0);
+    shown_.clear();
+    show_view();
     if (request_.fault) {
         return request_.fault;
     }
     try {
         const sc_core::sc_time start = sc_core::sc_time_stamp();
-        const auto answer = scene_.load(gateway_, request_.scene);
+        const AcceleratorFault fault = load();
         registers_.set_pair(Register::LoadCycles,
                             time_.clock.cycles_of(sc_core::sc_time_stamp() - start));
-        if (stop_ != Stop::None) {
-            return {};
-        }
-        if (answer != tlm::TLM_OK_RESPONSE) {
-            return {AcceleratorError::LoadError, detail_of(answer)};
-        }
-        return make_workload();
+        return fault || stop_ != Stop::None ? fault : make_workload();
     } catch (const InputError&) { // a mistake that the checks of the registers let pass
         return {AcceleratorError::BadCamera, 0};
     } catch (const std::bad_alloc&) {
@@ -149,27 +148,89 @@ AcceleratorFault AcceleratorCore::prepare() {
     }
 }
 
+// Reads the table of views, if there is one, and the scene.
+AcceleratorFault AcceleratorCore::load() {
+    tlm::tlm_response_status answer = tlm::TLM_OK_RESPONSE;
+    if (request_.table.entries != 0) {
+        std::vector<unsigned char> table;
+        answer = read_memory(gateway_, request_.table.address, request_.table.bytes(), table);
+        if (answer == tlm::TLM_OK_RESPONSE && stop_ == Stop::None) {
+            request_.read_table(table, options_.limits);
+        }
+    }
+    if (request_.fault || stop_ != Stop::None) {
+        return request_.fault;
+    }
+    if (answer == tlm::TLM_OK_RESPONSE) {
+        answer = scene_.load(gateway_, request_.scene);
+    }
+    return answer == tlm::TLM_OK_RESPONSE || stop_ != Stop::None
+               ? AcceleratorFault{}
+               : AcceleratorFault{AcceleratorError::LoadError, detail_of(answer)};
+}
+
+// A lens that the design's projection cannot draw.
+AcceleratorFault AcceleratorCore::lens_fault(const ProjectionOptions& options) const {
+    const bool pinhole =
+        options.rule != ProjectionRule::Unscented && options.lens == LensRule::Camera;
+    for (const DrawnView& view : drawn_) {
+        if (pinhole && !view.level.camera.lens.is_pinhole()) {
+            return {AcceleratorError::BadCamera, detail_of_view(view.entry, ViewField::Lens)};
+        }
+    }
+    return {};
+}
+
 // The frame joins the job only if all of it fits.
 AcceleratorFault AcceleratorCore::make_workload() {
     // All frames of the job have ended. Some units are still busy with the last one when its pixels
     // are written, and lists may be kept from it.
     if (const std::size_t frames = job_.frames.size(); frames != 0) {
-        job_.retire_before(static_cast<std::uint32_t>(frames - 1));
+        job_.retire_before(job_.first_view_of(static_cast<std::uint32_t>(frames - 1)));
     }
+    drawn_ = request_.drawn_views();
+    shown_ = drawn_;
+    show_view();
     std::uint32_t dropped = 0;
     const GaussianCloud cloud = scene_.cloud(dropped);
     const ProjectionOptions options = projection_of(config_->data_path(), options_.antialiased);
-    FrameWorkload work =
-        make_frame_workload(cloud, request_.camera, job_.tile_size, config_->tile_mode(), options);
     registers_.set(Register::Dropped, dropped);
-    const std::uint64_t needed = MemoryMap::workspace_bytes(config_->records(), work);
+    if (const AcceleratorFault fault = lens_fault(options)) {
+        return fault;
+    }
+    const std::uint64_t needed = make_views(cloud, options);
     registers_.set_pair(Register::WorkspaceNeeded, needed);
     if (request_.workspace_bytes < needed) {
         return {AcceleratorError::SmallWorkspace,
                 AcceleratorRegisters::offset_of(Register::WorkspaceBytes)};
     }
-    workload_ = std::make_shared<FrameWorkload>(std::move(work));
     return {};
+}
+
+// The views that are drawn, and where their streams live. Returns the bytes of workspace that they
+// take: each has a part, one behind the other.
+std::uint64_t AcceleratorCore::make_views(const GaussianCloud& cloud,
+                                          const ProjectionOptions& options) {
+    std::vector<FrameWorkload> views;
+    std::vector<Camera> cameras;
+    for (const DrawnView& view : drawn_) {
+        cameras.push_back(view.level.camera);
+        views.push_back(make_frame_workload(cloud, cameras.back(), job_.tile_size,
+                                            config_->tile_mode(), options));
+    }
+    std::uint64_t needed = 0;
+    workload_.clear();
+    bases_.assign(drawn_.size(), request_.bases);
+    for (std::size_t v = 0; v < drawn_.size(); ++v) {
+        if (drawn_.size() > 1 && config_->view_sharing() == ViewSharing::Colour) {
+            shade_from(cloud, middle_of(cameras), views[v]);
+        }
+        bases_[v].ahead = needed;
+        bases_[v].frame_buffer = drawn_[v].address;
+        needed += MemoryMap::workspace_bytes(config_->records(), views[v]);
+        workload_.push_back(std::make_shared<FrameWorkload>(std::move(views[v])));
+    }
+    return needed;
 }
 
 AcceleratorFault AcceleratorCore::render() {
@@ -178,15 +239,20 @@ AcceleratorFault AcceleratorCore::render() {
     scene_changed_ = false;
     self_.advance_to(time_.clock.ceil(sc_core::sc_time_stamp()));
     const Cycle started = self_.local();
-    job_.add(std::move(workload_), request_.bases);
-    job_.joined->notify(sc_core::SC_ZERO_TIME);
-    finished_.get(self_);
+    join_frame();
+    std::vector<Cycle> finished; // of each view
+    while (finished.size() < drawn_.size()) {
+        finished_.get(self_);
+        finished.push_back(self_.local() - started);
+    }
     self_.sync();
+    if (stop_ == Stop::None) {
+        count_frame(finished, before);
+    }
+    drop_images();
     if (stop_ != Stop::None) {
-        job_.images.back() = Image(0, 0);
         return {};
     }
-    count_frame(started, before);
     if (gateway_.errors() != 0) {
         return {AcceleratorError::BusError, detail_of(gateway_.first_error())};
     }
@@ -194,18 +260,72 @@ AcceleratorFault AcceleratorCore::render() {
                           : AcceleratorFault{};
 }
 
-void AcceleratorCore::count_frame(Cycle started, const MemoryTraffic& before) {
-    const MemoryTraffic after = gateway_.total();
-    std::uint64_t fragments = 0;
-    for (const std::uint32_t updates : job_.images.back().fragments) {
-        fragments += updates;
+// Views that share nothing are frames of their own.
+void AcceleratorCore::join_frame() {
+    if (config_->view_sharing() != ViewSharing::Nothing) {
+        job_.add_together(std::move(workload_), bases_);
+    } else {
+        for (std::size_t v = 0; v < drawn_.size(); ++v) {
+            job_.add(std::move(workload_[v]), bases_[v]);
+        }
     }
-    job_.images.back() = Image(0, 0); // the pixels are in memory
-    registers_.set_pair(Register::Cycles, self_.local() - started);
+    workload_.clear();
+    job_.joined->notify(sc_core::SC_ZERO_TIME);
+}
+
+// The pixels are in memory, or given up.
+void AcceleratorCore::drop_images() {
+    const std::size_t frames = job_.images.size();
+    for (std::size_t f = frames - drawn_.size(); f < frames; ++f) {
+        job_.images[f] = Image(0, 0);
+    }
+}
+
+void AcceleratorCore::count_frame(const std::vector<Cycle>& finished, const MemoryTraffic& before) {
+    const MemoryTraffic after = gateway_.total();
+    const std::size_t first = job_.images.size() - drawn_.size();
+    std::uint64_t fragments = 0;
+    for (std::size_t v = 0; v < drawn_.size(); ++v) {
+        for (const std::uint32_t updates : job_.images[first + v].fragments) {
+            drawn_[v].fragments += updates;
+        }
+        drawn_[v].cycles = finished[v];
+        fragments += drawn_[v].fragments;
+    }
+    shown_ = drawn_;
+    show_view();
+    registers_.set_pair(Register::Cycles, finished.back());
     registers_.set_pair(Register::BytesRead, after.bytes_read - before.bytes_read);
     registers_.set_pair(Register::BytesWritten, after.bytes_written - before.bytes_written);
     registers_.set_pair(Register::Fragments, fragments);
     registers_.set(Register::Frames, registers_.get(Register::Frames) + 1);
+}
+
+// What the registers from VIEWS_DRAWN on say of the view that VIEW selects.
+void AcceleratorCore::show_view() {
+    const std::uint32_t which = registers_.get(Register::View);
+    const bool there = which < shown_.size();
+    const DrawnView view = there ? shown_[which] : DrawnView();
+    const Camera& camera = view.level.camera;
+    const PixelBox& box = view.level.shown;
+    const auto set = [this](Register to, int value) {
+        registers_.set(to, static_cast<std::uint32_t>(value));
+    };
+    registers_.set(Register::ViewsDrawn, static_cast<std::uint32_t>(shown_.size()));
+    registers_.set(Register::ViewEntry, view.entry);
+    set(Register::ViewScale, there ? view.level.scale : 0);
+    set(Register::ViewWidth, camera.width);
+    set(Register::ViewHeight, camera.height);
+    set(Register::ViewX, view.level.first.x);
+    set(Register::ViewY, view.level.first.y);
+    const std::uint32_t shown = AcceleratorRegisters::offset_of(Register::ViewShown);
+    const int sides[] = {there ? box.x0 : 0, there ? box.y0 : 0, box.width(), box.height()};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        registers_.set_word(shown + 4 * i, static_cast<std::uint32_t>(sides[i]));
+    }
+    registers_.set_pair(Register::ViewAddress, view.address);
+    registers_.set_pair(Register::ViewCycles, view.cycles);
+    registers_.set_pair(Register::ViewFragments, view.fragments);
 }
 
 } // namespace degs

@@ -59,9 +59,15 @@ private:
 
     AcceleratorFault serve();
     AcceleratorFault prepare();
+    AcceleratorFault load();
     AcceleratorFault make_workload();
+    std::uint64_t make_views(const GaussianCloud& cloud, const ProjectionOptions& options);
+    AcceleratorFault lens_fault(const ProjectionOptions& options) const;
     AcceleratorFault render();
-    void count_frame(Cycle started, const MemoryTraffic& before);
+    void join_frame();
+    void drop_images();
+    void count_frame(const std::vector<Cycle>& finished, const MemoryTraffic& before);
+    void show_view();
     void end_frame(const AcceleratorFault& fault);
     void set_status(std::uint32_t set, std::uint32_t clear);
 
@@ -77,7 +83,10 @@ private:
     AcceleratorRequest request_; // of the present frame
     SceneCopy scene_;
     bool scene_changed_ = false;
-    FramePointer workload_; // of the present frame
+    std::vector<DrawnView> drawn_;       // of the present frame
+    std::vector<FramePointer> workload_; // of each of them
+    std::vector<MemoryBases> bases_;     // likewise
+    std::vector<DrawnView> shown_;       // what registers tell of, of the last frame
     RenderJob job_;
     Process self_;
     DatedFifo<std::uint32_t> finished_;

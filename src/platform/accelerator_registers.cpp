@@ -45,6 +45,9 @@ std::vector<RegisterValue> errors() {
         error("BUS_ERROR", E::BusError, "memory refused an access of the frame"),
         error("SCENE_CHANGED", E::SceneChanged, "the scene was written during the frame"),
         error("OUT_OF_MEMORY", E::OutOfMemory, "the host that simulates has too little memory"),
+        error("BAD_VIEW_COUNT", E::BadViewCount, "more than 64 views"),
+        error("BAD_FOVEATION", E::BadFoveation,
+              "a gaze outside of the image, or angles that are not in order"),
     };
 }
 
@@ -84,7 +87,8 @@ std::vector<RegisterInfo> rows() {
          interrupts()},
         {R::ErrorCode, 1, "ERROR_CODE", r, "see errors; 0 after a start", {}, errors()},
         {R::ErrorDetail, 1, "ERROR_DETAIL", r,
-         "offset of the register that is wrong, or the answer of the bus"},
+         "offset of the register that is wrong, or, in the upper half, the entry of the table of "
+         "views from 1 on, and in the lower half the offset in it; or the answer of the bus"},
         {R::Geometry, 2, "GEOMETRY", rw, "address of the geometry records"},
         {R::Sh, 2, "SH", rw, "address of the SH coefficients"},
         {R::Count, 1, "COUNT", rw, "Gaussians, 1 to 2^30 (an option of the model)"},
@@ -120,6 +124,70 @@ std::vector<RegisterInfo> rows() {
         {R::Frames, 1, "FRAMES", r,
          "frames rendered so far, those with a bus error or a changed scene included"},
         {R::Dropped, 1, "DROPPED", r, "of the last frame: Gaussians that no renderer can draw"},
+        {R::ViewCount, 1, "VIEW_COUNT", rw,
+         "views in the table, up to 64; 0: `FRAME_BUFFER` and the registers from `WIDTH` to "
+         "`ORIGIN_Y` describe the one view"},
+        {R::View, 1, "VIEW", rw,
+         "drawn view, from 0 on, of which the registers from `VIEW_SCALE` on tell whose names "
+         "begin "
+         "with VIEW"},
+        {R::Views, 2, "VIEWS", rw, "address of the table of views"},
+        {R::ViewsDrawn, 1, "VIEWS_DRAWN", r,
+         "of the last frame: its drawn views; each level of a foveated view is one"},
+        {R::ViewScale, 1, "VIEW_SCALE", r,
+         "pixels of the image along a side of a pixel of the drawn view: 1, 2 or 4; 0 if there is "
+         "no such view"},
+        {R::ViewAddress, 2, "VIEW_ADDRESS", r, "address of its pixels"},
+        {R::ViewCycles, 2, "VIEW_CYCLES", r,
+         "of the last frame: scene loaded to last pixel of this view, and those before it, in "
+         "memory"},
+        {R::ViewFragments, 2, "VIEW_FRAGMENTS", r, "its part of `FRAGMENTS`"},
+        {R::ViewWidth, 1, "VIEW_WIDTH", r, "its pixels in a row"},
+        {R::ViewHeight, 1, "VIEW_HEIGHT", r, "its rows"},
+        {R::ViewX, 1, "VIEW_X", r, "its first column among all of its size in the image"},
+        {R::ViewY, 1, "VIEW_Y", r, "the same of its first row"},
+        {R::ViewShown, 4, "VIEW_SHOWN", r,
+         "first column and row, width and height of what it shows of the image, in pixels of the "
+         "image, with what finer levels show"},
+        {R::ViewEntry, 1, "VIEW_ENTRY", r, "entry of the table, from 0 on, that it belongs to"},
+    };
+}
+
+std::vector<RegisterValue> lenses() {
+    const auto value = [](const char* name, LensKind kind, const char* meaning) {
+        return RegisterValue{name, static_cast<std::uint32_t>(kind), meaning};
+    };
+    return {value("PINHOLE", LensKind::Pinhole, "all coefficients are 0"),
+            value("OPENCV", LensKind::OpenCv, "OpenCV's lens"),
+            value("FISHEYE", LensKind::Fisheye, "OpenCV's fisheye")};
+}
+
+std::vector<ViewFieldInfo> entry_rows() {
+    using F = ViewField;
+    using R = Register;
+    return {
+        {F::FrameBuffer, 2, "FRAME_BUFFER", "", {}, R::FrameBuffer},
+        {F::Width, 1, "WIDTH", "", {}, R::Width},
+        {F::Height, 1, "HEIGHT", "", {}, R::Height},
+        {F::FocalX, 2, "FOCAL_X", "", {}, R::FocalX},
+        {F::FocalY, 2, "FOCAL_Y", "", {}, R::FocalY},
+        {F::Axes, 18, "AXES", "", {}, R::Axes},
+        {F::Position, 6, "POSITION", "", {}, R::Position},
+        {F::ShiftX, 2, "SHIFT_X", "", {}, R::ShiftX},
+        {F::ShiftY, 2, "SHIFT_Y", "", {}, R::ShiftY},
+        {F::OriginX, 1, "ORIGIN_X", "", {}, R::OriginX},
+        {F::OriginY, 1, "ORIGIN_Y", "", {}, R::OriginY},
+        {F::Lens, 1, "LENS", "kind of lens", lenses()},
+        {F::Radial, 8, "RADIAL",
+         "4 doubles: k1, k2, k3 and the factor of r^8; of a fisheye k1 to k4"},
+        {F::Denominator, 6, "DENOMINATOR", "3 doubles: k4, k5, k6 of OpenCV's lens"},
+        {F::Tangential, 4, "TANGENTIAL", "2 doubles: p1, p2 of OpenCV's lens"},
+        {F::GazeX, 2, "GAZE_X",
+         "double, point looked at, in shares of the width from the left, 0 to 1"},
+        {F::GazeY, 2, "GAZE_Y", "double, the same of the height from the top"},
+        {F::Fovea, 2, "FOVEA",
+         "double, degrees from there with full resolution, up to 90; 0: the view is not foveated"},
+        {F::Periphery, 2, "PERIPHERY", "double, degrees from there with half of it, `FOVEA` to 90"},
     };
 }
 
@@ -139,6 +207,22 @@ std::uint32_t RegisterInfo::bits() const {
 const std::vector<RegisterInfo>& register_map() {
     static const std::vector<RegisterInfo> map = rows();
     return map;
+}
+
+// Fields of the camera mean what the registers of their names do.
+const std::vector<ViewFieldInfo>& view_layout() {
+    static const std::vector<ViewFieldInfo> layout = [] {
+        std::vector<ViewFieldInfo> rows = entry_rows();
+        for (ViewFieldInfo& field : rows) {
+            for (const RegisterInfo& info : register_map()) {
+                if (field.same != Register::Id && info.offset == field.same) {
+                    field.meaning = info.meaning;
+                }
+            }
+        }
+        return rows;
+    }();
+    return layout;
 }
 
 AcceleratorRegisters::AcceleratorRegisters() {

@@ -44,6 +44,18 @@ struct RegisterInfo {
     /// A mask of the bits of the register that exist.
     std::uint32_t bits() const;
 };
+/// A row of the layout of an entry of the table of views.
+struct ViewFieldInfo {
+    ViewField offset;
+    std::uint32_t words;
+    const char* name;
+    std::string meaning;
+    std::vector<RegisterValue> values{};
+    Register same{}; ///< the register with the same meaning; Id: there is none
+};
+/// The whole layout, by ascending offset. What lies in between is reserved and not looked at.
+const std::vector<ViewFieldInfo>& view_layout();
+
 /// All registers, by ascending offset. Offsets in between are reserved: they read as 0, and writing
 /// them is an error.
 const std::vector<RegisterInfo>& register_map();

@@ -20,6 +20,7 @@ constexpr std::uint64_t kRestInterval = 128;
 void AcceleratorCore::request_stop(Stop why, const sc_core::sc_time& delay) {
     if (why == Stop::Reset) {
         registers_ = AcceleratorRegisters();
+        shown_.clear();
         set_status(kStatusInReset, 0);
     }
     const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "degs/scene.hpp"
 
+#include <algorithm>
+
 #include "platform/scene_copy.hpp"
 #include "scene/scene.hpp"
 
@@ -22,20 +24,12 @@ MemoryScene::View view_of(const Camera& camera) {
         view.axes[i] = camera.camera_to_world[i / 3][i % 3];
         view.position[i % 3] = camera.position[i % 3];
     }
+    const LensCoefficients& lens = camera.lens.coefficients();
+    view.lens = static_cast<LensKind>(lens.kind);
+    std::copy(lens.radial.begin(), lens.radial.end(), view.radial);
+    std::copy(lens.denominator.begin(), lens.denominator.end(), view.denominator);
+    std::copy(lens.tangential.begin(), lens.tangential.end(), view.tangential);
     return view;
-}
-
-/// A sentence for cameras whose lens distorts, which no register takes; empty if there is none.
-std::string lens_note(const std::vector<Camera>& cameras) {
-    std::size_t lenses = 0;
-    for (const Camera& camera : cameras) {
-        lenses += camera.lens.is_pinhole() ? 0 : 1;
-    }
-    return lenses == 0 ? ""
-                       : std::to_string(lenses) +
-                             " camera(s) of the scene have a lens with distortion, for which an "
-                             "accelerator on a platform has no registers; their views are "
-                             "pinholes.";
 }
 
 } // namespace
@@ -51,9 +45,6 @@ MemoryScene load_memory_scene(const std::string& scene, const std::string& camer
         made.views.push_back(view_of(camera));
     }
     made.notes = loaded.notes;
-    if (std::string note = lens_note(loaded.cameras); !note.empty()) {
-        made.notes.push_back(std::move(note));
-    }
     return made;
 }
 

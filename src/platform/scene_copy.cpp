@@ -64,24 +64,6 @@ std::uint64_t read_debug(MemoryGateway& memory, std::uint64_t address, unsigned 
     return bytes;
 }
 
-// Reads an array step by step, and lets it grow only as it is read, because memory may hold less
-// than a wrong count promises.
-tlm::tlm_response_status read(MemoryGateway& memory, std::uint64_t address, std::uint64_t bytes,
-                              std::vector<unsigned char>& out) {
-    out.clear();
-    for (std::uint64_t at = 0; at < bytes; at = out.size()) {
-        const std::uint64_t piece = std::min(kDebugPiece, bytes - at);
-        out.resize(at + piece);
-        const std::uint64_t got = read_debug(memory, address + at, out.data() + at, piece);
-        const auto status =
-            read_timed(memory, address + at + got, out.data() + at + got, piece - got);
-        if (status != tlm::TLM_OK_RESPONSE) {
-            return status;
-        }
-    }
-    return tlm::TLM_OK_RESPONSE;
-}
-
 GaussianCloud one_gaussian(const unsigned char* geometry, const unsigned char* sh, int degree) {
     std::array<float, kValues> v{};
     for (std::size_t i = 0; i < kValues; ++i) {
@@ -125,6 +107,24 @@ bool same(const std::vector<unsigned char>& copy, std::uint64_t offset, const un
 
 } // namespace
 
+// Step by step, and lets the array grow only as it is read, because memory may hold less
+// than a wrong count promises.
+tlm::tlm_response_status read_memory(MemoryGateway& memory, std::uint64_t address,
+                                     std::uint64_t bytes, std::vector<unsigned char>& out) {
+    out.clear();
+    for (std::uint64_t at = 0; at < bytes; at = out.size()) {
+        const std::uint64_t piece = std::min(kDebugPiece, bytes - at);
+        out.resize(at + piece);
+        const std::uint64_t got = read_debug(memory, address + at, out.data() + at, piece);
+        const auto status =
+            read_timed(memory, address + at + got, out.data() + at + got, piece - got);
+        if (status != tlm::TLM_OK_RESPONSE) {
+            return status;
+        }
+    }
+    return tlm::TLM_OK_RESPONSE;
+}
+
 std::uint64_t SceneCopy::Place::geometry_bytes() const {
     return std::uint64_t{count} * kFloatGeometryBytes;
 }
@@ -136,8 +136,9 @@ std::uint64_t SceneCopy::Place::sh_bytes() const {
 
 tlm::tlm_response_status SceneCopy::load(MemoryGateway& memory, const Place& place) {
     place_ = place;
-    const auto status = read(memory, place.geometry, place.geometry_bytes(), geometry_);
-    return status == tlm::TLM_OK_RESPONSE ? read(memory, place.sh, place.sh_bytes(), sh_) : status;
+    const auto status = read_memory(memory, place.geometry, place.geometry_bytes(), geometry_);
+    return status == tlm::TLM_OK_RESPONSE ? read_memory(memory, place.sh, place.sh_bytes(), sh_)
+                                          : status;
 }
 
 GaussianCloud SceneCopy::cloud(std::uint32_t& dropped) const {

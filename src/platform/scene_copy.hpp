@@ -9,6 +9,11 @@
 
 namespace degs {
 
+/// Reads bytes by debug transport or, where the memory has none, by transactions whose time passes.
+/// Returns the first failing response, or OK. Must be called from a process.
+tlm::tlm_response_status read_memory(MemoryGateway& memory, std::uint64_t address,
+                                     std::uint64_t bytes, std::vector<unsigned char>& out);
+
 /// The scene as it lies in a platform's memory, and the copy of it from which the values of a frame
 /// are computed. Per Gaussian 11 little-endian floats: mean x y z, scale x y z, rotation w x y z,
 /// opacity; in a second array 3 (degree + 1)^2 floats of SH, [coefficient][channel].
@@ -22,9 +27,7 @@ public:
         std::uint64_t sh_bytes() const;
     };
 
-    /// Reads both arrays by debug transport or, where the memory has none, by
-    /// transactions whose time passes. Returns the first failing response, or OK. Must
-    /// be called from a process.
+    /// Reads both arrays, see read_memory().
     tlm::tlm_response_status load(MemoryGateway& memory, const Place& place);
 
     /// Decodes the bytes. A Gaussian that cannot be drawn (see sanitize()) stays, without opacity,

@@ -59,6 +59,18 @@ public:
         }
     }
 
+    /// Another depth from the next item on. All items must have been read, at dates before that of
+    /// the next write, and nobody may hold on to one. The high-water mark stays.
+    void set_depth(std::size_t depth) {
+        if (depth == depth_) {
+            return;
+        }
+        depth_ = std::max<std::size_t>(depth, 1);
+        room_ = depth_;
+        renew(std::min(depth_, std::max(capacity_, stats_.high_water)));
+        left_.clear();
+    }
+
     const Stats& stats() const { return stats_; }
     /// True if a log, a foreign block or a timeline looks at what passes.
     bool attended() const { return attended_ || in_timeline_; }
@@ -164,7 +176,7 @@ public:
         const Cycle readable = front_->date;
         stats_.items++;
         stats_.occupied_cycles += now - front_->written;
-        if (stats_.high_water != depth_) {
+        if (stats_.high_water < depth_) {
             count_fill();
         }
         front_->read = now;
@@ -342,42 +354,9 @@ private:
         }
         writer.advance_to(tail_->date, stats_.full_cycles);
     }
-    /// Twice the cells, or all of them. The new ring starts with the oldest item. Behind the last
-    /// one come cells that are free from the start: the reads they would have to wait for all lie
-    /// before the latest write, else the ring would have grown then. Cells keep the dates of their
-    /// last item, which count_fill() and residence() ask for. A reader may hold on to an item in
-    /// the old cells.
-    __attribute__((noinline)) void grow() {
-        std::vector<Cell> cells(capacity_ <= depth_ / 2 ? 2 * capacity_ : depth_);
-        const std::size_t added = cells.size() - capacity_;
-        const std::size_t used = filled_ + late_.size();
-        const Cell* from = front_;
-        for (std::size_t i = 0; i < capacity_; ++i, from = next(from)) {
-            Cell& behind = cells[added + i];
-            behind.read = from->read;
-            behind.written = from->written;
-            if (added + i >= used && from->read != kNever) {
-                behind.date = from->read + release_latency_;
-            }
-            if (i < used) {
-                cells[i].date = from->date;
-                cells[i].written = from->written;
-                cells[i].value = from->value;
-            } else if (i == used) {
-                cells[i].value = from->value; // staged, perhaps
-            }
-        }
-        left_.push_back(std::move(cells_));
-        cells_ = std::move(cells);
-        capacity_ = cells_.size();
-        first_ = cells_.data();
-        end_ = first_ + capacity_;
-        front_ = first_;
-        tail_ = first_ + used;
-        earlier_ = stats_.high_water == 0 ? first_ : end_ - stats_.high_water;
-        head_ = &front_->date;
-        free_ = &tail_->date;
-    }
+    /// More cells, and that many for an empty ring; see dated_fifo_cells.hpp.
+    __attribute__((noinline)) void grow();
+    void renew(std::size_t count);
     /// Raises the high-water mark if more items than that were inside when the item now read was
     /// written: itself, and those before it that were read later. It uses dates alone, because the
     /// number of items in the ring depends on how far the host lets its sides run ahead. An item
@@ -493,3 +472,5 @@ public:
 };
 
 } // namespace degs
+
+#include "tlm/dated_fifo_cells.hpp"

@@ -3,11 +3,13 @@
 // shows what a closed job of the same design draws. Nothing of a frame reaches the next one.
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include <glm/gtc/packing.hpp>
 
 #include "degs/design.hpp"
 #include "tests/platform/reset_platform.hpp"
+#include "tests/platform/views_bench.hpp"
 #include "tests/random/dice.hpp"
 
 namespace degs::test {
@@ -34,20 +36,25 @@ enum class Fate {
 /// All that a host says of a frame, and what happens meanwhile.
 struct Deed {
     GaussianCloud cloud;
-    Camera camera;
+    std::vector<RequestedView> views; ///< one or several in a table, or that of the registers
+    bool in_table = false;
     glm::ivec2 origin{0}; ///< as the registers say it
     FrameFormat format = FrameFormat::Rgba8;
     std::uint64_t workspace = kWorkspace, frame = kFrame;
     Fate fate = Fate::Drawn;
     double stop_ns = 0;        ///< from the start
     bool writes_window = true; ///< else registers have it from their reset
+
+    int pixel_bytes() const { return format == FrameFormat::Rgba8 ? 4 : 8; }
+    const Camera& camera() const { return views.front().camera; }
 };
 
 /// What a host, and whoever looks into memory, sees of a frame at its end.
 struct Outcome {
     std::vector<std::uint32_t> words; ///< STATUS, ERROR_CODE, ERROR_DETAIL, IRQ_STATUS, new frames
     std::vector<std::uint64_t> counters; ///< workspace, fragments, cycles of loading, dropped
-    std::vector<std::uint64_t> traffic;  ///< cycles, bytes read and written
+    std::vector<std::uint64_t> traffic;  ///< cycles, bytes read and written, cycles of views
+    std::vector<SeenView> views;         ///< but for their cycles
     std::vector<unsigned char> pixels;   ///< and all memory behind them
 };
 
@@ -65,6 +72,10 @@ Outcome outcome_of(Host& host, ResetPlatform& p, std::uint32_t frames_before) {
     seen.counters.push_back(host.read(Register::Dropped));
     for (const Register pair : {Register::Cycles, Register::BytesRead, Register::BytesWritten}) {
         seen.traffic.push_back(host.read_pair(pair));
+    }
+    seen.views = seen_views(host);
+    for (SeenView& view : seen.views) {
+        seen.traffic.push_back(std::exchange(view.cycles, 0));
     }
     seen.pixels.assign(p.bytes().begin() + kFrame, p.bytes().end());
     return seen;
@@ -90,35 +101,47 @@ void put(const Deed& deed, ResetPlatform& p) {
     }
 }
 
-void describe(const Deed& deed, Host& host) {
-    program(host, deed.cloud, deed.camera, deed.frame);
-    host.write_pair(Register::Workspace, deed.workspace);
-    host.write_pair(Register::WorkspaceBytes, kFrame - deed.workspace);
-    host.write(Register::Format, static_cast<std::uint32_t>(deed.format));
-    if (deed.writes_window) {
-        host.write_double(Register::ShiftX, deed.camera.shift.x);
-        host.write_double(Register::ShiftY, deed.camera.shift.y);
-        host.write(Register::OriginX, static_cast<std::uint32_t>(deed.origin.x));
-        host.write(Register::OriginY, static_cast<std::uint32_t>(deed.origin.y));
-    }
+/// The views of a frame, with what is wrong about one of them.
+std::vector<RequestedView> views_of(const Deed& deed) {
+    std::vector<RequestedView> views = deed.views;
     switch (deed.fate) {
     case Fate::BadSize:
-        host.write(Register::Height, 0);
+        views.back().camera.height = 0;
         break;
     case Fate::BadCamera:
-        host.write_double(Register::FocalY, -1);
+        views.back().camera.fy = -1;
         break;
     case Fate::BadWindow:
-        host.write_double(Register::ShiftX, 1e7);
+        views.back().camera.shift.x = 1e7;
         break;
     case Fate::Misaligned:
-        host.write_pair(Register::FrameBuffer, deed.frame + 4);
-        break;
-    case Fate::SmallWorkspace:
-        host.write_pair(Register::WorkspaceBytes, 64);
+        views.back().frame_buffer += 4;
         break;
     default:
         break;
+    }
+    return views;
+}
+
+void describe(const Deed& deed, Host& host, ResetPlatform& p) {
+    const std::vector<RequestedView> views = views_of(deed);
+    const Camera& camera = views.front().camera;
+    program(host, deed.cloud, camera, views.front().frame_buffer);
+    host.write_pair(Register::Workspace, deed.workspace);
+    host.write_pair(Register::WorkspaceBytes,
+                    deed.fate == Fate::SmallWorkspace ? 64 : kFrame - deed.workspace);
+    host.write(Register::Format, static_cast<std::uint32_t>(deed.format));
+    host.write_pair(Register::Views, kTable);
+    host.write(Register::ViewCount, deed.in_table ? static_cast<std::uint32_t>(views.size()) : 0);
+    if (deed.in_table) {
+        const std::vector<unsigned char> table = table_of(views);
+        std::copy(table.begin(), table.end(), p.bytes().begin() + kTable);
+    }
+    if (deed.writes_window || deed.fate == Fate::BadWindow) {
+        host.write_double(Register::ShiftX, camera.shift.x);
+        host.write_double(Register::ShiftY, camera.shift.y);
+        host.write(Register::OriginX, static_cast<std::uint32_t>(deed.origin.x));
+        host.write(Register::OriginY, static_cast<std::uint32_t>(deed.origin.y));
     }
 }
 
@@ -135,7 +158,7 @@ void stop(Host& host, ResetPlatform& p, const Deed& deed) {
 
 Outcome perform(const Deed& deed, Host& host, ResetPlatform& p) {
     put(deed, p);
-    describe(deed, host);
+    describe(deed, host, p);
     host.write(Register::IrqStatus, kIrqDone | kIrqError | kIrqAborted);
     const bool resets = deed.fate == Fate::Reset || deed.fate == Fate::HeldInReset;
     const std::uint32_t before = resets ? 0 : host.read(Register::Frames);
@@ -157,21 +180,55 @@ Camera view_of(Dice& dice) {
     return camera;
 }
 
-Deed draw_deed(Dice& dice, bool may_change) {
+LensCoefficients draw_lens(Dice& dice) {
+    LensCoefficients lens;
+    lens.kind = dice.chance(0.5) ? LensCoefficients::Kind::OpenCv : LensCoefficients::Kind::Fisheye;
+    lens.radial = {dice.uniform(-0.1, 0.1), dice.uniform(-0.02, 0.02), 0, 0};
+    return lens;
+}
+
+/// Up to three views: eyes, windows, lenses and foveation in any mixture.
+std::vector<RequestedView> draw_views(Dice& dice, bool bends) {
+    std::vector<RequestedView> views;
+    const int count = 1 + dice.below(3);
+    while (static_cast<int>(views.size()) < count) {
+        Camera camera = view_of(dice);
+        if (!views.empty() && dice.chance(0.6)) {
+            camera = eyes_of(views.front().camera, 0.5).back();
+        }
+        if (dice.chance(0.3)) {
+            const int x = dice.below(camera.width), y = dice.below(camera.height);
+            camera = camera.cropped({x, y, camera.width - 1, camera.height - 1});
+        }
+        if (bends && dice.chance(0.5)) {
+            camera.lens = Lens(draw_lens(dice));
+        }
+        views.push_back({camera});
+        if (dice.chance(0.5)) {
+            const double fovea = dice.log_uniform(1, 30);
+            views.back().foveation =
+                Foveation{{dice.uniform(0, 1), dice.uniform(0, 1)}, fovea, 1.7 * fovea};
+        }
+    }
+    return views;
+}
+
+Deed draw_deed(Dice& dice, bool may_change, bool bends) {
     static const std::vector<double> shifts{0, 0, -5, 5, 0.5, -17.25, 40};
     static const std::vector<int> origins{0, 0, 3, 16, 37};
     Deed deed;
     deed.cloud =
         test_cloud(static_cast<unsigned>(dice.below(1000)), 20 + dice.below(60), dice.below(4));
-    deed.camera = view_of(dice);
+    deed.views.push_back({view_of(dice)});
+    Camera& camera = deed.views.front().camera;
     if (dice.chance(0.2)) {
         deed.cloud.opacities[5] = 2; // is dropped
     }
     if (dice.chance(0.7)) {
         const glm::dvec2 shift(dice.one_of(shifts), dice.one_of(shifts));
-        EXPECT_TRUE(deed.camera.set_principal_point(deed.camera.principal_point() + shift));
+        EXPECT_TRUE(camera.set_principal_point(camera.principal_point() + shift));
         deed.origin = {dice.one_of(origins), dice.one_of(origins)};
-        deed.camera.origin = glm::max(deed.camera.origin, deed.origin);
+        camera.origin = glm::max(camera.origin, deed.origin);
     }
     deed.format = dice.chance(0.3) ? FrameFormat::Rgba16F : FrameFormat::Rgba8;
     deed.workspace += 64 * dice.below(3);
@@ -181,18 +238,23 @@ Deed draw_deed(Dice& dice, bool may_change) {
         deed.fate = deed.fate == Fate::SceneChanged && !may_change ? Fate::Drawn : deed.fate;
     }
     deed.stop_ns = dice.log_uniform(1, 4000);
+    deed.in_table = dice.chance(0.6);
+    if (deed.in_table) {
+        deed.views = draw_views(dice, bends);
+    }
+    place(deed.views, deed.pixel_bytes(), deed.frame);
     return deed;
 }
 
 /// A frame after a reset finds the window that is the whole image, and need not write it.
-std::vector<Deed> draw_deeds(Dice& dice, int count, bool may_change) {
+std::vector<Deed> draw_deeds(Dice& dice, int count, bool may_change, bool bends) {
     std::vector<Deed> deeds;
     for (int i = 0; i < count; ++i) {
         deeds.push_back(i > 1 && dice.chance(0.3) ? deeds[dice.below(i)]
-                                                  : draw_deed(dice, may_change));
+                                                  : draw_deed(dice, may_change, bends));
         const bool reset =
             i > 0 && (deeds[i - 1].fate == Fate::Reset || deeds[i - 1].fate == Fate::HeldInReset);
-        deeds[i].writes_window = !(reset && deeds[i].camera.is_centred());
+        deeds[i].writes_window = !(reset && deeds[i].camera().is_centred());
     }
     return deeds;
 }
@@ -231,15 +293,28 @@ struct Drawn {
     Bus bus = Bus::Annotated;
     bool has_debug = true;
     Accelerator::Options options;
+    bool bends = false; ///< draws lenses
 };
 
 Drawn draw_accelerator(Dice& dice, const std::vector<std::string>& designs, bool keeps_lists) {
     Drawn drawn;
-    const std::vector<std::string> set{"binning.keep_lists=true"};
-    drawn.config = load_design(std::string(DEGS_CONFIGS) + "/" + dice.one_of(designs) + ".yaml",
-                               keeps_lists ? set : std::vector<std::string>())
-                       .accelerator()
-                       .clone();
+    const std::string name = dice.one_of(designs);
+    const bool gcc = name.rfind("gcc", 0) == 0;
+    std::vector<std::string> keys;
+    if (keeps_lists) {
+        keys.emplace_back("binning.keep_lists=true");
+    }
+    drawn.bends = dice.chance(0.3);
+    if (drawn.bends) {
+        keys.emplace_back("pipeline.rules.projection=unscented");
+    }
+    if (dice.chance(0.4)) {
+        keys.emplace_back(gcc                ? "grouping.shared_by_views=nothing"
+                          : dice.chance(0.5) ? "projection.shared_by_views=nothing"
+                                             : "projection.shared_by_views=colour");
+    }
+    drawn.config =
+        load_design(std::string(DEGS_CONFIGS) + "/" + name + ".yaml", keys).accelerator().clone();
     drawn.bus = static_cast<Bus>(dice.below(3));
     drawn.options = options_of(drawn.bus, dice.chance(0.2) ? Fidelity::Strict : Fidelity::Exact);
     drawn.has_debug = dice.chance(0.5);
@@ -259,7 +334,24 @@ void expect_same(const Outcome& is, const Outcome& alone, bool keeps_lists) {
     if (!keeps_lists) {
         EXPECT_EQ(is.traffic, alone.traffic);
     }
+    EXPECT_TRUE(is.views == alone.views);
     EXPECT_TRUE(is.pixels == alone.pixels);
+}
+
+/// All memory from kFrame on is that of the closed job; pixels of a hole are nobody's.
+void expect_drawn(const Outcome& seen, const Deed& deed, const ClosedViews& closed) {
+    ASSERT_EQ(seen.views.size(), closed.drawn.size());
+    const std::vector<unsigned char>& memory = closed.memory.bytes;
+    EXPECT_TRUE(std::equal(seen.pixels.begin(), seen.pixels.end(), memory.begin() + kFrame));
+    for (std::size_t v = 0; v < closed.drawn.size(); ++v) {
+        const DrawnView& view = closed.drawn[v];
+        if (view.level.camera.hole.empty()) {
+            const std::vector<unsigned char> image = stored(closed.image(v), deed.format);
+            EXPECT_TRUE(std::equal(image.begin(), image.end(),
+                                   memory.begin() + static_cast<std::ptrdiff_t>(view.address)))
+                << "view " << v;
+        }
+    }
 }
 
 struct Family {
@@ -276,13 +368,14 @@ TEST_P(SmallRunSequence, EachFrameIsThatOfAFreshAccelerator) {
     const auto& [family, draw] = GetParam();
     Dice dice(53, draw);
     const Drawn drawn = draw_accelerator(dice, family.designs, family.keeps_lists);
-    const std::vector<Deed> deeds = draw_deeds(dice, kFrames, drawn.bus != Bus::FourPhases);
+    const std::vector<Deed> deeds =
+        draw_deeds(dice, kFrames, drawn.bus != Bus::FourPhases, drawn.bends);
     const auto make = [&](const std::string& name) {
         return std::make_unique<ResetPlatform>(name, *drawn.config, deeds.front().cloud, drawn.bus,
                                                drawn.options, drawn.has_debug);
     };
     std::vector<std::unique_ptr<ResetPlatform>> fresh;
-    std::vector<std::unique_ptr<Closed>> closed;
+    std::vector<std::unique_ptr<ClosedViews>> closed;
     std::vector<Outcome> expected(kFrames);
     const std::unique_ptr<AcceleratorConfig> floats = drawn.config->clone();
     floats->read_floats();
@@ -292,9 +385,9 @@ TEST_P(SmallRunSequence, EachFrameIsThatOfAFreshAccelerator) {
         alone.host.script = [&, i](Host& host) { expected[i] = perform(deeds[i], host, alone); };
         GaussianCloud sound = deeds[i].cloud;
         sanitize(sound);
-        closed.push_back(std::make_unique<Closed>(("closed" + std::to_string(i)).c_str(), *floats,
-                                                  sound, deeds[i].camera,
-                                                  drawn.options.antialiased));
+        closed.push_back(std::make_unique<ClosedViews>(
+            ("closed" + std::to_string(i)).c_str(), *floats, sound, deeds[i].views,
+            deeds[i].pixel_bytes(), drawn.options.antialiased));
     }
     const auto together = make("p");
     const std::vector<Outcome> seen = in_turn(*together, deeds);
@@ -305,10 +398,7 @@ TEST_P(SmallRunSequence, EachFrameIsThatOfAFreshAccelerator) {
         expect_same(seen[i], expected[i], family.keeps_lists);
         if (deeds[i].fate == Fate::Drawn) {
             EXPECT_EQ(seen[i].words.front(), kStatusDone);
-            const std::vector<unsigned char> image = stored(closed[i]->image(), deeds[i].format);
-            const auto begin =
-                seen[i].pixels.begin() + static_cast<std::ptrdiff_t>(deeds[i].frame - kFrame);
-            EXPECT_TRUE(std::equal(image.begin(), image.end(), begin));
+            expect_drawn(seen[i], deeds[i], *closed[i]);
         }
     }
 }

@@ -2,7 +2,7 @@
 // The driver in C: its header against the model, and a frame through its two functions.
 #include "degs/degs_driver.h"
 #include "modules/degs/config.hpp"
-#include "tests/platform/accelerator_bench.hpp"
+#include "tests/platform/views_bench.hpp"
 
 namespace degs::test {
 namespace {
@@ -49,6 +49,20 @@ TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
         {DEGS_REG_WORKSPACE_NEEDED, R::WorkspaceNeeded},
         {DEGS_REG_FRAMES, R::Frames},
         {DEGS_REG_DROPPED, R::Dropped},
+        {DEGS_REG_VIEW_COUNT, R::ViewCount},
+        {DEGS_REG_VIEW, R::View},
+        {DEGS_REG_VIEWS, R::Views},
+        {DEGS_REG_VIEWS_DRAWN, R::ViewsDrawn},
+        {DEGS_REG_VIEW_SCALE, R::ViewScale},
+        {DEGS_REG_VIEW_ADDRESS, R::ViewAddress},
+        {DEGS_REG_VIEW_CYCLES, R::ViewCycles},
+        {DEGS_REG_VIEW_FRAGMENTS, R::ViewFragments},
+        {DEGS_REG_VIEW_WIDTH, R::ViewWidth},
+        {DEGS_REG_VIEW_HEIGHT, R::ViewHeight},
+        {DEGS_REG_VIEW_X, R::ViewX},
+        {DEGS_REG_VIEW_Y, R::ViewY},
+        {DEGS_REG_VIEW_SHOWN, R::ViewShown},
+        {DEGS_REG_VIEW_ENTRY, R::ViewEntry},
     };
     ASSERT_EQ(offsets.size(), register_map().size());
     for (std::size_t i = 0; i < offsets.size(); ++i) {
@@ -68,6 +82,52 @@ TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
               static_cast<std::uint32_t>(AcceleratorError::OutOfMemory));
 }
 
+TEST(Driver, FieldsOfItsEntriesAreThoseOfTheModel) {
+    using F = ViewField;
+    const std::vector<std::pair<std::uint32_t, F>> offsets{
+        {DEGS_ENTRY_FRAME_BUFFER, F::FrameBuffer},
+        {DEGS_ENTRY_WIDTH, F::Width},
+        {DEGS_ENTRY_HEIGHT, F::Height},
+        {DEGS_ENTRY_FOCAL_X, F::FocalX},
+        {DEGS_ENTRY_FOCAL_Y, F::FocalY},
+        {DEGS_ENTRY_AXES, F::Axes},
+        {DEGS_ENTRY_POSITION, F::Position},
+        {DEGS_ENTRY_SHIFT_X, F::ShiftX},
+        {DEGS_ENTRY_SHIFT_Y, F::ShiftY},
+        {DEGS_ENTRY_ORIGIN_X, F::OriginX},
+        {DEGS_ENTRY_ORIGIN_Y, F::OriginY},
+        {DEGS_ENTRY_LENS, F::Lens},
+        {DEGS_ENTRY_RADIAL, F::Radial},
+        {DEGS_ENTRY_DENOMINATOR, F::Denominator},
+        {DEGS_ENTRY_TANGENTIAL, F::Tangential},
+        {DEGS_ENTRY_GAZE_X, F::GazeX},
+        {DEGS_ENTRY_GAZE_Y, F::GazeY},
+        {DEGS_ENTRY_FOVEA, F::Fovea},
+        {DEGS_ENTRY_PERIPHERY, F::Periphery},
+    };
+    ASSERT_EQ(offsets.size(), view_layout().size());
+    std::uint32_t end = 0;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const ViewFieldInfo& field = view_layout()[i];
+        EXPECT_EQ(offsets[i].second, field.offset) << field.name;
+        EXPECT_EQ(offsets[i].first, static_cast<std::uint32_t>(field.offset)) << field.name;
+        EXPECT_GE(offsets[i].first, end) << field.name;
+        EXPECT_NE(field.meaning, "") << field.name;
+        end = offsets[i].first + 4 * field.words;
+        const RegisterInfo* const same =
+            AcceleratorRegisters::find(AcceleratorRegisters::offset_of(field.same));
+        if (field.same != Register::Id) {
+            EXPECT_EQ(same->words, field.words) << field.name;
+            EXPECT_STREQ(same->name, field.name);
+        }
+    }
+    EXPECT_LE(end, kViewBytes);
+    EXPECT_EQ(DEGS_VIEW_BYTES, kViewBytes);
+    EXPECT_EQ(kViewBytes % kBaseAlignment, 0U);
+    EXPECT_EQ(DEGS_MOST_VIEWS, kMostViews);
+    EXPECT_EQ(DEGS_LENS_FISHEYE, static_cast<std::uint32_t>(LensKind::Fisheye));
+}
+
 degs_device device_of(Host& host) {
     return {&host,
             [](void* to, std::uint32_t offset) {
@@ -76,19 +136,6 @@ degs_device device_of(Host& host) {
             [](void* to, std::uint32_t offset, std::uint32_t value) {
                 static_cast<Host*>(to)->write(static_cast<Register>(offset), value);
             }};
-}
-
-degs_camera view_of(const Camera& camera) {
-    degs_camera view{};
-    view.width = static_cast<std::uint32_t>(camera.width);
-    view.height = static_cast<std::uint32_t>(camera.height);
-    view.focal_x = camera.fx;
-    view.focal_y = camera.fy;
-    for (int i = 0; i < 9; ++i) {
-        view.axes[i] = camera.camera_to_world[i / 3][i % 3];
-        view.position[i % 3] = camera.position[i % 3];
-    }
-    return view;
 }
 
 TEST(SmallRunDriver, RendersTheFrameOfTheRegistersAndReportsErrors) {
@@ -102,7 +149,7 @@ TEST(SmallRunDriver, RendersTheFrameOfTheRegistersAndReportsErrors) {
         EXPECT_EQ(degs_probe(&device), 1);
         const degs_scene scene{0, kSh, static_cast<std::uint32_t>(cloud.size()),
                                static_cast<std::uint32_t>(cloud.sh_degree)};
-        const degs_camera view = view_of(camera);
+        const degs_camera view = driver_camera(camera);
         degs_set_scene(&device, &scene);
         degs_set_camera(&device, &view);
         degs_set_frame_buffer(&device, kFrame, DEGS_FORMAT_RGBA8);
@@ -131,6 +178,74 @@ TEST(SmallRunDriver, RendersTheFrameOfTheRegistersAndReportsErrors) {
     EXPECT_EQ(counters.frames, 1U);
     EXPECT_GT(counters.fragments, 0U);
     EXPECT_EQ(counters.dropped, 0U);
+}
+
+// Two foveated eyes: probed for their memory, drawn, read back, and then one view by registers.
+TEST(SmallRunDriver, RendersTheViewsOfATable) {
+    const GaussianCloud cloud = test_cloud();
+    const std::vector<Camera> eyes = eyes_of(test_camera(61, 47), 0.3);
+    std::vector<RequestedView> views{{eyes[0], Foveation{{0.5, 0.5}, 10, 20}}, {eyes[1]}};
+    place(views);
+    DegsConfig config;
+    Platform p("p", config, cloud);
+    ClosedViews closed("closed", config, cloud, views);
+    std::vector<degs_drawn_view> asked, drawn;
+    degs_counters counters{};
+    p.host.script = [&](Host& host) {
+        const degs_device device = device_of(host);
+        const degs_scene scene{0, kSh, static_cast<std::uint32_t>(cloud.size()),
+                               static_cast<std::uint32_t>(cloud.sh_degree)};
+        const std::vector<unsigned char> table = table_of(views);
+        std::copy(table.begin(), table.end(), p.memory->bytes.begin() + kTable);
+        degs_set_scene(&device, &scene);
+        degs_set_views(&device, kTable, 2);
+        degs_set_workspace(&device, kWorkspace, 0);
+        const auto read = [&device](std::vector<degs_drawn_view>& all) {
+            all.resize(degs_views_drawn(&device));
+            for (std::uint32_t v = 0; v < all.size(); ++v) {
+                degs_read_view(&device, v, &all[v]);
+            }
+        };
+        degs_start(&device, 0);
+        EXPECT_EQ(degs_wait(&device), DEGS_ERROR_CODE_SMALL_WORKSPACE);
+        read(asked);
+        degs_set_workspace(&device, kWorkspace, degs_workspace_needed(&device));
+        degs_start(&device, 0);
+        EXPECT_EQ(degs_wait(&device), DEGS_ERROR_CODE_NONE);
+        read(drawn);
+        degs_read_counters(&device, &counters);
+        degs_set_views(&device, 0, 0);
+        const degs_camera view = driver_camera(eyes[1]);
+        degs_set_camera(&device, &view);
+        degs_set_frame_buffer(&device, kFrame, DEGS_FORMAT_RGBA8);
+        degs_start(&device, 0);
+        EXPECT_EQ(degs_wait(&device), DEGS_ERROR_CODE_NONE);
+        EXPECT_EQ(degs_views_drawn(&device), 1U);
+        EXPECT_EQ(p.frame(eyes[1]), rgba8(closed.image(3)));
+    };
+    sc_core::sc_start();
+    ASSERT_TRUE(p.host.finished);
+    ASSERT_EQ(drawn.size(), 4U);
+    ASSERT_EQ(asked.size(), 4U);
+    std::uint64_t fragments = 0;
+    for (std::size_t v = 0; v < 4; ++v) {
+        const DrawnView& same = closed.drawn[v];
+        EXPECT_EQ(drawn[v].entry, v / 3);
+        EXPECT_EQ(static_cast<int>(drawn[v].scale), same.level.scale);
+        EXPECT_EQ(drawn[v].address, same.address);
+        EXPECT_EQ(static_cast<int>(drawn[v].width), same.level.camera.width);
+        EXPECT_EQ(static_cast<int>(drawn[v].height), same.level.camera.height);
+        EXPECT_EQ(static_cast<int>(drawn[v].x), same.level.first.x);
+        EXPECT_EQ(static_cast<int>(drawn[v].y), same.level.first.y);
+        EXPECT_EQ(static_cast<int>(drawn[v].shown[0]), same.level.shown.x0);
+        EXPECT_EQ(static_cast<int>(drawn[v].shown[3]), same.level.shown.height());
+        EXPECT_EQ(drawn[v].cycles, closed.finished[v]);
+        EXPECT_EQ(asked[v].address, drawn[v].address);
+        EXPECT_EQ(asked[v].cycles, 0U);
+        fragments += drawn[v].fragments;
+    }
+    EXPECT_EQ(counters.fragments, fragments);
+    EXPECT_EQ(counters.cycles, closed.finished.back());
 }
 
 // A frame that does not exist is never reported as rendered.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene file as the bytes that a platform puts into its memory.
 #include <cstring>
+#include <iterator>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -49,15 +51,23 @@ TEST(MemoryScene, HasTheGaussiansAndViewsOfTheFile) {
     }
 }
 
-TEST(MemoryScene, SaysThatRegistersHaveNoLens) {
+TEST(MemoryScene, HasTheLensesOfItsCameras) {
     const Folder folder;
     const std::string file = folder.write(
         "cameras.json", R"([{"width":64,"height":48,"position":[0,0,-6],"fx":50,"fy":50,)"
-                        R"("rotation":[[1,0,0],[0,1,0],[0,0,1]],"camera_model":"OPENCV",)"
-                        R"("distortion":[0.1,0,0,0]}])");
-    const MemoryScene memory = load_memory_scene("synthetic:object,gaussians=50", file);
-    ASSERT_EQ(memory.notes.size(), 1U);
-    EXPECT_THAT(memory.notes[0], IsSentenceWith("1 camera(s) of the scene have a lens"));
+                        R"("rotation":[[1,0,0],[0,1,0],[0,0,1]],"camera_model":"FULL_OPENCV",)"
+                        R"("distortion":[0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9]}])");
+    const std::string spec = "synthetic:object,gaussians=50";
+    const MemoryScene memory = load_memory_scene(spec, file);
+    EXPECT_EQ(memory.notes, load_scene(spec, file).notes);
+    const MemoryScene::View& view = memory.views.at(0);
+    EXPECT_EQ(view.lens, LensKind::OpenCv);
+    const auto list = [](const auto& values) {
+        return std::vector<double>(std::begin(values), std::end(values));
+    };
+    EXPECT_EQ(list(view.radial), (std::vector<double>{0.1, 0.2, 0.5, 0.9}));
+    EXPECT_EQ(list(view.denominator), (std::vector<double>{0.6, 0.7, 0.8}));
+    EXPECT_EQ(list(view.tangential), (std::vector<double>{0.3, 0.4}));
 }
 
 TEST(HostileMemoryScene, AMistakeIsOneSentence) {

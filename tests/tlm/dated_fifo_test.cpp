@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tlm/dated_fifo.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -280,6 +284,80 @@ TEST(DatedFifo, ItemStaysWhereItIsWhileTheRingGrows) {
     });
     sc_core::sc_start();
     EXPECT_EQ(seen, 7);
+}
+
+// Between bursts of items, when it is empty, a ring changes its depth: each burst has the dates of
+// a ring that has had that depth from the start.
+TEST(DatedFifo, AnEmptyRingMayChangeItsDepth) {
+    constexpr std::size_t kDepths[] = {3, 8, 40, 2, 2, 100, 1, 17};
+    constexpr Cycle kBurst = 120, kApart = 10'000;
+    const Timebase time;
+    struct Side {
+        Side(const std::string& name, const Timebase& time, std::size_t depth)
+            : ring(name.c_str(), time, depth, 2, 1), writer(time), reader(time) {}
+        DatedFifo<Cycle> ring;
+        Process writer, reader;
+        std::vector<Cycle> dates; // of writes and reads, from the start of their burst
+    };
+    Side changing("changing", time, 5);
+    std::vector<std::unique_ptr<Side>> fixed;
+    std::vector<std::unique_ptr<Script>> scripts;
+    const auto add = [&scripts](std::function<void()> body) {
+        scripts.push_back(std::make_unique<Script>(
+            ("script_" + std::to_string(scripts.size())).c_str(), std::move(body)));
+    };
+    const auto write = [](Side& side, std::size_t burst) {
+        side.writer.advance_to(kApart * burst);
+        for (Cycle i = 0; i < kBurst; ++i) {
+            side.writer.advance(test::mix(burst, i, 1, 1) % 3);
+            side.ring.put(side.writer, i);
+            side.dates.push_back(side.writer.local() - kApart * burst);
+        }
+    };
+    const auto read = [](Side& side, std::size_t burst) {
+        side.reader.advance_to(kApart * burst);
+        for (Cycle i = 0; i < kBurst; ++i) {
+            EXPECT_EQ(side.ring.get(side.reader), i);
+            side.reader.advance(test::mix(burst, i, 2, 2) % (i < kBurst / 2 ? 9 : 2));
+            side.dates.push_back(side.reader.local() - kApart * burst);
+        }
+    };
+    for (std::size_t burst = 0; burst < std::size(kDepths); ++burst) {
+        fixed.push_back(
+            std::make_unique<Side>("fixed_" + std::to_string(burst), time, kDepths[burst]));
+        Side& side = *fixed.back();
+        add([&side, write, burst] { write(side, burst); });
+        add([&side, read, burst] { read(side, burst); });
+    }
+    sc_core::sc_event read_out;
+    add([&] {
+        for (std::size_t burst = 0; burst < std::size(kDepths); ++burst) {
+            changing.ring.set_depth(kDepths[burst]);
+            EXPECT_EQ(changing.ring.depth(), kDepths[burst]);
+            write(changing, burst);
+            sc_core::wait(read_out);
+        }
+    });
+    add([&] {
+        for (std::size_t burst = 0; burst < std::size(kDepths); ++burst) {
+            read(changing, burst);
+            read_out.notify(sc_core::SC_ZERO_TIME);
+        }
+    });
+    sc_core::sc_start();
+    std::vector<Cycle> expected;
+    std::size_t most = 0;
+    Cycle full = 0;
+    for (const auto& side : fixed) {
+        expected.insert(expected.end(), side->dates.begin(), side->dates.end());
+        most = std::max(most, side->ring.stats().high_water);
+        full += side->ring.stats().full_cycles;
+    }
+    std::sort(expected.begin(), expected.end());
+    std::sort(changing.dates.begin(), changing.dates.end());
+    EXPECT_EQ(changing.dates, expected);
+    EXPECT_EQ(changing.ring.stats().high_water, most);
+    EXPECT_EQ(changing.ring.stats().full_cycles, full);
 }
 
 // A ring of depth 0 would deadlock; it has one cell.

@@ -32,9 +32,9 @@ Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
     : sc_core::sc_module(name), out("out", readers), listed("listed", listeners),
       frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), means("means", time),
       lists("lists", time), config_(config), traffic_(traffic), job_(job),
-      frames_in_flight_(frames_in_flight), fetcher_(time), grouper_(time),
-      fetched_("fetched", time, config.chunks_in_flight), acknowledged_(config.writes_in_flight, 0),
-      regions_(job.views) {
+      in_flight_(frames_in_flight), fetcher_(time), grouper_(time),
+      fetched_("fetched", time, config.chunks_in_flight),
+      acknowledged_(config.writes_in_flight, 0) {
     fetched_.set_billed();
     DEGS_HAS_PROCESS(Grouping);
     SC_THREAD(fetch);
@@ -59,13 +59,10 @@ void Grouping::end_of_elaboration() {
 
 void Grouping::fetch() {
     const std::uint64_t chunk = config_.chunk;
-    const std::uint32_t views = job_.views;
+    std::uint32_t views = 0;
     for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); f += views) {
-        for (std::uint32_t v = 0; frames_in_flight_ != 0 && v < views; ++v) {
-            if (f >= frames_in_flight_ * views) {
-                frame_free[0]->get(fetcher_);
-            }
-        }
+        views = job_.views_of(f);
+        in_flight_.begin(views, frame_free, fetcher_);
         const FrameWorkload& frame = *job_.frames[f];
         const MemoryMap map(traffic_, job_, f);
         const std::uint64_t record = traffic_.stage_one_bytes();
@@ -82,8 +79,11 @@ void Grouping::fetch() {
 }
 
 void Grouping::group() {
-    for (std::uint32_t f = 0; job_.has_frame(grouper_, f); f += job_.views) {
-        for (std::uint32_t v = 0; v < job_.views; ++v) {
+    std::uint32_t views = 0;
+    for (std::uint32_t f = 0; job_.has_frame(grouper_, f); f += views) {
+        views = job_.views_of(f);
+        regions_.resize(views);
+        for (std::uint32_t v = 0; v < views; ++v) {
             const MemoryMap map(traffic_, job_, f + v);
             regions_[v] = {by_view(*job_.frames[f + v]) ? map.views : map.groups, 0};
         }
@@ -91,11 +91,11 @@ void Grouping::group() {
         for (std::uint64_t c = 0; c < chunks; ++c) {
             const Chunk chunk = fetched_.get(grouper_);
             stats_.gaussians += chunk.count;
-            for (std::uint32_t v = 0; v < job_.views; ++v) {
+            for (std::uint32_t v = 0; v < views; ++v) {
                 group_chunk(f + v, chunk);
             }
         }
-        for (std::uint32_t v = 0; v < job_.views; ++v) {
+        for (std::uint32_t v = 0; v < views; ++v) {
             finish_lists(f + v);
         }
     }
@@ -125,7 +125,8 @@ void Grouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
     const std::uint32_t end = frame.visible_among(chunk.first + chunk.count);
     const std::uint64_t entries =
         by_view(frame) ? job_.pairs_before(f, end) - job_.pairs_before(f, begin) : end - begin;
-    write(regions_[f % job_.views], entries, ceil_div(chunk.count, config_.means_per_cycle));
+    write(regions_[f - job_.first_view_of(f)], entries,
+          ceil_div(chunk.count, config_.means_per_cycle));
 }
 
 // Entries of the image's groups come back near to far, as many requests ahead as for the means.

@@ -6,6 +6,7 @@
 #include <systemc>
 
 #include "baselines/gcc/traffic.hpp"
+#include "modules/kit/front_end/frames_in_flight.hpp"
 #include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/view_sharing.hpp"
@@ -95,7 +96,7 @@ private:
     Config config_;
     Traffic traffic_;
     const RenderJob& job_;
-    std::uint32_t frames_in_flight_;
+    FramesInFlight in_flight_;
     Process fetcher_, grouper_;
     DatedFifo<Chunk> fetched_;
     std::vector<Completion> acknowledged_; // ring of completion dates of the latest writes

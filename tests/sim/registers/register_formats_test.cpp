@@ -87,5 +87,17 @@ TEST(RegisterFormats, TheTableSaysWhoMayReadAndWrite) {
     }
 }
 
+TEST(RegisterFormats, TheLayoutOfAViewIsInItsTableAndInTheHeader) {
+    const std::string table = view_entry_markdown();
+    for (const ViewFieldInfo& field : view_layout()) {
+        EXPECT_THAT(table, HasSubstr("| " + std::string(field.name) + " | " +
+                                     std::to_string(field.words) + " | " + field.meaning));
+        EXPECT_THAT(registers_c(),
+                    HasSubstr("#define DEGS_ENTRY_" + std::string(field.name) + " "));
+    }
+    EXPECT_THAT(table, HasSubstr("| 0x098 | LENS | 1 | kind of lens. 0 PINHOLE: "));
+    EXPECT_THAT(registers_c(), HasSubstr("#define DEGS_LENS_FISHEYE "));
+}
+
 } // namespace
 } // namespace degs::sim

@@ -33,7 +33,6 @@ struct SteadyMemory : sc_core::sc_module {
 /// Rows of 16 B every 250 ns.
 Display::Config small_screen() {
     Display::Config screen;
-    screen.width = screen.height = 4;
     screen.refresh_hz = 1e6;
     return screen;
 }
@@ -43,13 +42,25 @@ TEST(Display, ARowIsLateWhenTheNextOneIsDue) {
     Display in_time("in_time", small_screen()), late("late", small_screen());
     in_time.out.bind(quick.in);
     late.out.bind(slow.in);
-    in_time.show(0);
-    late.show(0);
+    in_time.show({{0, 4, 4}});
+    late.show({{0, 4, 4}});
     sc_core::sc_start(sc_core::sc_time(9900, sc_core::SC_NS));
     EXPECT_EQ(in_time.stats().rows, 40U);
     EXPECT_EQ(in_time.stats().underruns, 0U);
     EXPECT_EQ(late.stats().underruns, 40U);
     EXPECT_EQ(late.stats().bytes, 40U * 16);
+}
+
+// A picture of 4 + 1 rows in a microsecond: each row has a fifth of it, whatever view it is of.
+TEST(Display, ShowsAllViewsOfAFrame) {
+    SteadyMemory memory("memory", 190);
+    Display display("display", small_screen());
+    display.out.bind(memory.in);
+    display.show({{0, 4, 4}, {64, 8, 1}});
+    sc_core::sc_start(sc_core::sc_time(9900, sc_core::SC_NS));
+    EXPECT_EQ(display.stats().rows, 50U);
+    EXPECT_EQ(display.stats().bytes, 10U * (4 * 16 + 32));
+    EXPECT_EQ(display.stats().underruns, 0U);
 }
 
 TEST(CpuTraffic, WritesALineForSoManyReads) {

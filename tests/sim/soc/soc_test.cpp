@@ -58,15 +58,14 @@ std::vector<std::string> soc(const std::string& design, const std::vector<std::s
     return words;
 }
 
-// A memory of its own, one view, a scene of floats: what a platform has no use for is refused.
+// A memory of its own, one frame at a time, a scene of floats: what a platform has no use for is
+// refused.
 TEST(SmallRunSoc, KeysThatAPlatformCannotFollowAreRefused) {
     const std::vector<std::array<std::string, 3>> keys{
         {"degs-16", "memory.bandwidth_gb_per_s=0.1", "a memory of its own, --memory"},
         {"degs-16", "memory.latency_ns=5000", "a memory of its own, --memory"},
         {"degs-16", "memory.lpddr5.timing.rcd=20", "a memory of its own, --memory"},
-        {"degs-16", "projection.shared_by_views=nothing", "one view at a time"},
-        {"gcc-16", "grouping.shared_by_views=nothing", "one view at a time"},
-        {"degs-16", "frames_in_flight=1", "one view at a time"},
+        {"degs-16", "frames_in_flight=1", "starts a frame when the one before has ended"},
         {"degs-16", "traffic.geometry_bytes=64", "as floats"},
         {"degs-16", "traffic.pixel_bytes=8", "the register FORMAT"},
         {"degs-16", "cost.logic.fo4_per_ns=50", "nothing is billed"}};
@@ -168,6 +167,103 @@ TEST(SmallRunSoc, HasATimelineOfTheAccelerator) {
                          "--width", "160", "--no-reference", "--out", folder / "run"}));
     const auto report = report_in(folder / "run");
     EXPECT_NEAR(useful, 2 * report["slots"]["useful"].get<double>(), 1e-3);
+}
+
+/// A scene whose means are floats, as a platform has them.
+std::string scene_of_floats(const Folder& folder) {
+    const std::string scene = folder / "scene.ply";
+    expect_success(degs({"scene", "generate", "object", "--gaussians", "700", "--out", scene}));
+    return scene;
+}
+
+// Both eyes, each of three levels: every pixel is that of the run with these views.
+TEST(SmallRunSoc, FoveatedEyesAreThoseOfARun) {
+    const Folder folder;
+    const std::vector<std::string> frame{
+        "--scene", scene_of_floats(folder), "--width", "160",         "--eyes",
+        "0.1",     "--units-per-metre",     "3",       "--foveation", "0.4,0.6:6:14"};
+    for (const char* design : {"degs-16", "gcc-16"}) {
+        SCOPED_TRACE(design);
+        std::vector<std::string> on_platform{"soc",  config(design), "--load",
+                                             "0",    "40",           "--refresh",
+                                             "2000", "--out",        folder / "soc"};
+        std::vector<std::string> alone{"run", config(design), "--no-cache", "--out",
+                                       folder / "run"};
+        on_platform.insert(on_platform.end(), frame.begin(), frame.end());
+        alone.insert(alone.end(), frame.begin(), frame.end());
+        const Outcome outcome = degs(on_platform);
+        expect_success(outcome);
+        EXPECT_NE(outcome.out.find("2 × 160×"), std::string::npos) << outcome.out;
+        EXPECT_NE(outcome.out.find(" in 6 views"), std::string::npos) << outcome.out;
+        expect_success(degs(alone));
+        const auto soc = nlohmann::json::parse(read_file(folder / "soc/soc.json"));
+        const auto run = report_in(folder / "run");
+        ASSERT_EQ(soc["views"].size(), 6U);
+        double cycles = 0, rows = 0, fragments = 0;
+        for (std::size_t v = 0; v < 6; ++v) {
+            const auto& view = soc["views"][v];
+            const auto& same = run["views"]["first_frame"][v];
+            const auto& level = run["foveation"]["images"][v / 3]["levels"][v % 3];
+            EXPECT_EQ(view["crc32"], same["crc32"]) << v;
+            EXPECT_EQ(view["image"], v / 3);
+            EXPECT_EQ(view["scale"], level["scale"]);
+            EXPECT_EQ(view["rectangle"], level["rectangle"]);
+            EXPECT_GE(view["finished_cycles"], cycles);
+            cycles = view["finished_cycles"];
+            rows += view["height"].get<double>();
+            fragments += view["fragments"].get<double>();
+        }
+        EXPECT_EQ(soc["points"][0]["cycles"], cycles);
+        EXPECT_EQ(soc["points"][0]["fragments"], fragments);
+        EXPECT_GT(soc["psnr_db"], 45.0);
+        // The display shows all levels of a frame 1000 times a second.
+        EXPECT_NEAR(soc["points"][1]["display_rows"].get<double>(),
+                    1e-9 * 1000 * rows * soc["points"][1]["latency_ns"].get<double>(), 1);
+    }
+}
+
+TEST(SmallRunSoc, LensesAndGroupsOfCamerasAreThoseOfARun) {
+    const Folder folder;
+    std::ofstream(folder / "cameras.json")
+        << R"([{"width":80,"height":60,"position":[0,0,-4],"fx":70,"fy":70,)"
+        << R"("rotation":[[1,0,0],[0,1,0],[0,0,1]],"camera_model":"OPENCV",)"
+        << R"("distortion":[-0.1,0.02,0.001,0]},)"
+        << R"({"width":80,"height":60,"position":[0.5,0,-4],"fx":80,"fy":80,"cx":33,"cy":30,)"
+        << R"("rotation":[[1,0,0],[0,1,0],[0,0,1]]}])";
+    const std::string scene = scene_of_floats(folder);
+    const auto words = [&](const char* command, const std::vector<std::string>& more) {
+        std::vector<std::string> all{command, config("degs-16"), "--scene",
+                                     scene,   "--camera-file",   folder / "cameras.json",
+                                     "--out", folder / command};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    const std::vector<std::string> bent{"--views", "0,1", "--set",
+                                        "pipeline.rules.projection=unscented"};
+    std::vector<std::string> soc = words("soc", bent);
+    soc.insert(soc.end(), {"--load", "0", "--refresh", "0"});
+    expect_success(degs(soc));
+    expect_success(degs(words("run", bent)));
+    const auto views = nlohmann::json::parse(read_file(folder / "soc/soc.json"))["views"];
+    const auto report = report_in(folder / "run");
+    ASSERT_EQ(views.size(), 2U);
+    for (std::size_t v = 0; v < 2; ++v) {
+        EXPECT_EQ(views[v]["crc32"], report["views"]["first_frame"][v]["crc32"]) << v;
+    }
+    expect_mistake(degs(words("soc", {"--load", "0"})), "which the linear projection cannot draw");
+}
+
+// Views that share nothing are frames, and the key says how many are in flight.
+TEST(SmallRunSoc, FramesInFlightAreViewsThatShareNothing) {
+    const Folder folder;
+    const auto cycles = [&](const std::string& limit) {
+        expect_success(degs(
+            soc(config("degs-16"), {"--eyes", "0.1", "--set", "projection.shared_by_views=nothing",
+                                    "frames_in_flight=" + limit, "--out", folder / limit})));
+        const auto written = nlohmann::json::parse(read_file(folder / limit + "/soc.json"));
+        return written["points"][0]["cycles"].get<double>();
+    };
+    EXPECT_GT(cycles("1"), cycles("2"));
 }
 
 TEST(HostileSoc, BadArgumentsAreOneSentence) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/kit/accelerator/render_engine.hpp"
 
+#include <utility>
+
 #include "config/config_source.hpp"
 
 namespace degs {
@@ -72,8 +74,12 @@ RenderJob make_render_job(const AcceleratorConfig& config, int views) {
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
                           const AcceleratorConfig& config, int views) {
     RenderJob job = make_render_job(config, views);
-    for (const FrameWorkload* frame : frames) {
-        job.add(borrowed(*frame));
+    for (std::size_t f = 0; f < frames.size(); f += job.views) {
+        std::vector<FramePointer> group;
+        for (std::size_t v = f; v < f + job.views; ++v) {
+            group.push_back(borrowed(*frames.at(v)));
+        }
+        job.add_together(std::move(group));
     }
     return job;
 }

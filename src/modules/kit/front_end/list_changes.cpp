@@ -6,14 +6,15 @@
 namespace degs {
 
 bool ListChanges::keeps(std::uint32_t frame) const {
-    if (!lists_are_kept_ || frame < job_.first_since_reset + job_.views) {
+    const std::optional<std::uint32_t> earlier = job_.view_before(frame);
+    if (!lists_are_kept_ || !earlier) {
         return false;
     }
-    const FrameWorkload& before = *job_.frames[frame - job_.views];
+    const FrameWorkload& before = *job_.frames[*earlier];
     const FrameWorkload& now = *job_.frames[frame];
     return before.gaussians == now.gaussians && before.tiles_x == now.tiles_x &&
            before.tiles_y == now.tiles_y &&
-           job_.bases[frame - job_.views].workspace == job_.bases[frame].workspace;
+           job_.bases[*earlier].workspace == job_.bases[frame].workspace;
 }
 
 std::size_t ListChanges::grid_index(const JobTile& tile) const {
@@ -26,7 +27,7 @@ void ListChanges::mark(std::uint32_t frame, std::vector<bool>& written) {
     if (!keeps(frame)) {
         return;
     }
-    const FrameWorkload& before = *job_.frames[frame - job_.views];
+    const FrameWorkload& before = *job_.frames[*job_.view_before(frame)];
     std::vector<std::uint32_t> listed_in(now.gaussians, 0); // the last tile, counted from 1
     for (int tile = 0; tile < now.tiles(); ++tile) {
         const std::uint32_t mark = tile + 1;

@@ -32,9 +32,8 @@ ProjectionUnit::ProjectionUnit(const sc_core::sc_module_name& name, const Config
                                const RenderJob& job, int index, int frames_in_flight)
     : sc_core::sc_module(name), geometry("geometry", time), sh("sh", time), out("out"),
       frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), config_(config), traffic_(traffic),
-      job_(job), index_(index), frames_in_flight_(frames_in_flight), views_(job.views),
-      fetcher_(time), projector_(time), shader_(time),
-      fetched_("fetched", time, config.chunks_in_flight),
+      job_(job), index_(index), in_flight_(frames_in_flight), fetcher_(time), projector_(time),
+      shader_(time), fetched_("fetched", time, config.chunks_in_flight),
       projected_("projected", time, config.chunks_in_flight * job.views, config.latency_cycles) {
     fetched_.set_billed();
     projected_.set_billed();
@@ -61,13 +60,10 @@ void ProjectionUnit::end_of_elaboration() {
 void ProjectionUnit::fetch() {
     const std::uint64_t chunk = config_.chunk;
     const std::uint64_t stride = chunk * config_.count;
-    const std::uint32_t views = job_.views;
+    std::uint32_t views = 0;
     for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); f += views) {
-        for (std::uint32_t v = 0; frames_in_flight_ != 0 && v < views; ++v) {
-            if (f >= frames_in_flight_ * views) {
-                frame_free[0]->get(fetcher_);
-            }
-        }
+        views = job_.views_of(f);
+        in_flight_.begin(views, frame_free, fetcher_);
         const MemoryMap map = job_.map(f, traffic_);
         const std::uint64_t total = job_.frames[f]->gaussians;
         const std::uint64_t bytes = traffic_.geometry_size();
@@ -85,7 +81,11 @@ void ProjectionUnit::fetch() {
 
 void ProjectionUnit::project() {
     const std::uint64_t chunk = config_.chunk;
-    for (std::uint32_t f = 0; job_.has_frame(projector_, f); f += job_.views) {
+    std::uint32_t views = 0;
+    for (std::uint32_t f = 0; job_.has_frame(projector_, f); f += views) {
+        views = job_.views_of(f);
+        views_.resize(views);
+        projected_.set_depth(config_.chunks_in_flight * views); // all before has been shaded
         const std::uint64_t total = job_.frames[f]->gaussians;
         for (std::uint64_t first = chunk * index_; first < total; first += chunk * config_.count) {
             project_views(fetched_.get(projector_));
@@ -95,11 +95,11 @@ void ProjectionUnit::project() {
 }
 
 void ProjectionUnit::project_views(const Chunk& chunk) {
-    const bool together = job_.views > 1 && config_.shared_by_views >= ViewSharing::Sh;
+    const bool together = views_.size() > 1 && config_.shared_by_views >= ViewSharing::Sh;
     stats_.gaussians += chunk.count;
-    for (std::uint32_t v = 0; v < job_.views; ++v) {
-        ProjectedChunk& view = views_[v];
-        view = seen_in(chunk.frame + v, chunk);
+    std::uint32_t frame = chunk.frame;
+    for (ProjectedChunk& view : views_) {
+        view = seen_in(frame++, chunk);
         const ProjectionRule rule = job_.frames[view.frame]->projection.rule;
         const Cycle busy = chunk.count * config_.project_cycles(rule);
         projector_.work(busy, stats_.project_busy);
@@ -170,10 +170,12 @@ Completion ProjectionUnit::read_sh(const Chunk& chunk, const std::uint32_t* gaus
 void ProjectionUnit::shade() {
     const Cycle cycles = config_.cycles_per_colour;
     const std::uint64_t chunk = config_.chunk;
-    for (std::uint32_t f = 0; job_.has_frame(shader_, f); f += job_.views) {
+    std::uint32_t views = 0;
+    for (std::uint32_t f = 0; job_.has_frame(shader_, f); f += views) {
+        views = job_.views_of(f);
         const std::uint64_t total = job_.frames[f]->gaussians;
         for (std::uint64_t first = chunk * index_; first < total; first += chunk * config_.count) {
-            for (std::uint32_t v = 0; v < job_.views; ++v) {
+            for (std::uint32_t v = 0; v < views; ++v) {
                 const ProjectedChunk in = projected_.get(shader_);
                 const Cycle busy = in.colours * cycles;
                 shader_.work(busy, stats_.shade_busy);

@@ -6,6 +6,7 @@
 
 #include <systemc>
 
+#include "modules/kit/front_end/frames_in_flight.hpp"
 #include "modules/kit/front_end/projection_rate.hpp"
 #include "modules/kit/job/message_rings.hpp"
 #include "modules/kit/job/render_job.hpp"
@@ -77,7 +78,7 @@ private:
     TrafficConfig traffic_;
     const RenderJob& job_;
     int index_;
-    std::uint32_t frames_in_flight_;
+    FramesInFlight in_flight_;
     std::vector<ProjectedChunk> views_; // of the chunk that is projected
     std::vector<std::uint32_t> seen_;   // Gaussians of it that any view shows
     Process fetcher_, projector_, shader_;

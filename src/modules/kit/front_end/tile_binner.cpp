@@ -48,7 +48,6 @@ TileBinner::TileBinner(const sc_core::sc_module_name& name, const Config& config
                        ListChanges& changes, int chunk, std::size_t inputs, std::size_t outputs)
     : sc_core::sc_module(name), in("in", inputs), out("out", outputs), splats("splats", time),
       lists("lists", time), config_(config), traffic_(traffic), job_(job), changes_(changes),
-      views_(job.views, {{}, ListWrites(traffic, config.entries)}),
       follows_entries_(config.entries != ListWriting::Stream || config.keep_lists), chunk_(chunk),
       self_(time), acknowledged_(config.writes_in_flight, 0) {
     if (config.entries != ListWriting::Stream) {
@@ -77,8 +76,10 @@ std::uint64_t TileBinner::sram_bytes_moved() const {
 }
 
 void TileBinner::run() {
-    const std::uint32_t views = job_.views;
+    std::uint32_t views = 0;
     for (std::uint32_t f = 0; job_.has_frame(self_, f); f += views) {
+        views = job_.views_of(f);
+        views_.resize(views, {{}, ListWrites(traffic_, config_.entries)});
         for (std::uint32_t v = 0; v < views; ++v) {
             begin(f + v, views_[v]);
         }

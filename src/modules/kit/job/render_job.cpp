@@ -32,9 +32,20 @@ std::vector<std::uint64_t> prefix_of_pairs(const FrameWorkload& frame) {
 
 } // namespace
 
-void RenderJob::add(FramePointer frame, const MemoryBases& base) {
+void RenderJob::add_together(std::vector<FramePointer> group,
+                             const std::vector<MemoryBases>& base) {
+    const Group of_all{static_cast<std::uint32_t>(frames.size()),
+                       static_cast<std::uint32_t>(group.size())};
+    for (std::size_t v = 0; v < group.size(); ++v) {
+        add_view(std::move(group[v]), base.empty() ? MemoryBases() : base[v], of_all);
+    }
+    ++joined_groups_;
+}
+
+void RenderJob::add_view(FramePointer frame, const MemoryBases& base, const Group& group) {
     const std::lock_guard<TurnMutex> lock(*changes);
     const auto f = static_cast<std::uint32_t>(frames.size());
+    groups_.push_back(group);
     const FrameWorkload& work = *frame;
     frames.push_back(std::move(frame));
     bases.push_back(base);
@@ -96,9 +107,7 @@ bool RenderJob::add_next() {
         }
     }
     retire_ended();
-    for (FramePointer& frame : group) {
-        add(std::move(frame));
-    }
+    add_together(std::move(group));
     return true;
 }
 
@@ -126,12 +135,23 @@ void RenderJob::retire_before(std::uint32_t frame) {
     places.drop_before(first);
     pair_prefix.drop_before(first);
     bases.drop_before(first);
+    groups_.drop_before(first);
+}
+
+std::optional<std::uint32_t> RenderJob::view_before(std::uint32_t frame) const {
+    const Group& group = groups_[frame];
+    const bool may_be = group.first > first_since_reset;
+    return may_be && views_of(group.first - 1) == group.views
+               ? std::optional<std::uint32_t>(frame - group.views)
+               : std::nullopt;
 }
 
 MemoryMap RenderJob::map(std::uint32_t frame, const TrafficConfig& traffic) const {
     MemoryMap map(traffic, *frames[frame], bases[frame]);
-    for (std::uint32_t before = frame - frame % views; before < frame; ++before) {
-        map.move_behind(traffic, *frames[before]);
+    if (!bases[frame].given) {
+        for (std::uint32_t before = first_view_of(frame); before < frame; ++before) {
+            map.move_behind(traffic, *frames[before]);
+        }
     }
     return map;
 }

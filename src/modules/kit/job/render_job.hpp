@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <systemc>
@@ -40,9 +42,11 @@ struct RenderJob {
     KeptList<std::vector<std::uint64_t>> pair_prefix;
     /// Per frame: where its streams live, if not where MemoryMap puts them.
     KeptList<MemoryBases> bases;
-    /// Consecutive frames that are the views of one frame and whose Gaussians are read together.
-    /// Frames that join one by one are views of none.
+    /// Consecutive frames of the source that are the views of one frame and whose Gaussians are
+    /// read together.
     std::uint32_t views = 1;
+    /// Somebody will add frames beside those of the source; how many is not known.
+    bool is_open = false;
     /// Memory holds nothing of frames before this one: the accelerator was reset, or gave one up.
     std::uint32_t first_since_reset = 0;
     /// Set if slots are recorded with their dates and tiles.
@@ -71,11 +75,18 @@ struct RenderJob {
     SlotPart* record_part(int width) const {
         return recorder == nullptr ? nullptr : &recorder->add_part(width);
     }
-    /// Whether there are more than that or will be, views that are read together counted as one.
+    /// Whether there are more than that or may be, views that are read together counted as one.
     bool has_more_frames_than(int count) const {
         const std::size_t limit = count;
-        return frames.size() + source.frames > limit * views;
+        return is_open || joined_groups_ + source.frames / views > limit;
     }
+    /// Frames that are the views of one frame have joined together. How many they are, and the
+    /// first of them; of a frame that joined alone, 1 and itself.
+    std::uint32_t views_of(std::uint32_t frame) const { return groups_[frame].views; }
+    std::uint32_t first_view_of(std::uint32_t frame) const { return groups_[frame].first; }
+    /// The frame of the same view in the group before, if that has as many views and memory still
+    /// holds what it has left there.
+    std::optional<std::uint32_t> view_before(std::uint32_t frame) const;
     /// Which of several like sorting units makes the list of a tile that has joined. They take
     /// turns, anew in each frame, so that a frame does not depend on those before it.
     std::size_t sorter_of(std::size_t tile, std::size_t sorters) const {
@@ -87,7 +98,8 @@ struct RenderJob {
         const int own = bases[frame].pixel_bytes;
         return own != 0 ? own : traffic.pixel_bytes;
     }
-    /// Views that are read together have records, lists and pixels one behind the other.
+    /// Views that are read together have records, lists and pixels one behind the other, unless
+    /// somebody else gives them their places.
     MemoryMap map(std::uint32_t frame, const TrafficConfig& traffic) const;
     /// The records of `count` splats; of `count` visible Gaussians in scene order from rank `first`
     /// on, which lie one behind the other in RecordOrder::Index only; the SH of `count` Gaussians.
@@ -113,7 +125,12 @@ struct RenderJob {
     bool over(std::size_t tile) const { return !lists(tile) && joined == nullptr; }
 
     /// Lists the tiles of a frame and loads its splats into the data path.
-    void add(FramePointer frame, const MemoryBases& base = {});
+    void add(FramePointer frame, const MemoryBases& base = {}) {
+        add_view(std::move(frame), base, {static_cast<std::uint32_t>(frames.size()), 1});
+        ++joined_groups_;
+    }
+    /// Adds the views of a frame that are read together likewise. `base`: of each, or empty.
+    void add_together(std::vector<FramePointer> group, const std::vector<MemoryBases>& base = {});
     /// Adds the next frame of the source, with all of its views that are read together, in place of
     /// those that have ended. False if there is none.
     bool add_next();
@@ -128,6 +145,11 @@ struct RenderJob {
     void retire_before(std::uint32_t frame);
 
 private:
+    /// The views of one frame.
+    struct Group {
+        std::uint32_t first, views;
+    };
+    void add_view(FramePointer frame, const MemoryBases& base, const Group& group);
     void retire_ended();
     /// Whether there is a frame or a tile of this number. That one is made when somebody asks for
     /// it cannot be told from its having been there, so that the job is const to those who ask.
@@ -154,6 +176,8 @@ private:
 
     std::size_t ended_ = 0; // frames of which nothing will be asked but by those after them
     KeptList<std::uint64_t> ends_of_frame_; // messages of note_end()
+    KeptList<Group> groups_;                // of each frame
+    std::size_t joined_groups_ = 0;
 };
 
 /// A job without frames.

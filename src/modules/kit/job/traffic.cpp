@@ -78,7 +78,7 @@ void require_indices(const TrafficConfig& traffic, const FrameWorkload& frame) {
 
 MemoryMap::MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame,
                      const MemoryBases& bases)
-    : geometry(bases.geometry), sh(bases.sh), splats(bases.workspace),
+    : geometry(bases.geometry), sh(bases.sh), splats(bases.workspace + bases.ahead),
       frame_buffer(bases.frame_buffer) {
     require_indices(traffic, frame);
     if (!bases.given) {

@@ -52,6 +52,7 @@ struct MemoryBases {
     bool given = false;
     std::uint64_t geometry = 0, sh = 0;
     std::uint64_t workspace = 0; ///< splat records and lists
+    std::uint64_t ahead = 0;     ///< B of the workspace that other views of the frame have
     std::uint64_t frame_buffer = 0;
     int pixel_bytes = 0; ///< of this frame; 0: as TrafficConfig says
 };

@@ -182,6 +182,57 @@ TEST(RenderJob, ViewsThatAreReadTogetherComeAndRetireTogether) {
     EXPECT_EQ(job.frames.first(), 1U); // lists of view 3 are kept from it
 }
 
+// How many views a frame has is a fact of each frame.
+TEST(RenderJob, FramesOfAnyNumberOfViewsFollowEachOther) {
+    const FrameWorkload one = row_of(1), two = row_of(2);
+    RenderJob job = make_render_job(DataPathOptions(), 16, 1);
+    EXPECT_FALSE(job.has_more_frames_than(1));
+    job.is_open = true;
+    EXPECT_TRUE(job.has_more_frames_than(64));
+    job.is_open = false;
+    const auto views = [&](std::size_t count) {
+        job.add_together(std::vector<FramePointer>(count, borrowed(two)));
+    };
+    views(2);
+    views(3);
+    views(3);
+    job.add(borrowed(one));
+    EXPECT_TRUE(job.has_more_frames_than(3));
+    EXPECT_FALSE(job.has_more_frames_than(4));
+    std::vector<std::uint32_t> first, count;
+    std::vector<int> before;
+    for (std::uint32_t frame = 0; frame < 9; ++frame) {
+        first.push_back(job.first_view_of(frame));
+        count.push_back(job.views_of(frame));
+        before.push_back(static_cast<int>(job.view_before(frame).value_or(~0U)));
+    }
+    EXPECT_THAT(first, ElementsAre(0U, 0U, 2U, 2U, 2U, 5U, 5U, 5U, 8U));
+    EXPECT_THAT(count, ElementsAre(2U, 2U, 3U, 3U, 3U, 3U, 3U, 3U, 1U));
+    EXPECT_THAT(before, ElementsAre(-1, -1, -1, -1, -1, 2, 3, 4, -1));
+    job.first_since_reset = 5;
+    EXPECT_FALSE(job.view_before(5).has_value());
+    const std::uint64_t apart = job.map(4, {}).splats - job.map(3, {}).splats;
+    EXPECT_EQ(job.map(3, {}).splats, job.map(2, {}).splats + apart);
+    EXPECT_EQ(job.map(5, {}).splats, job.map(2, {}).splats); // each frame begins anew
+    EXPECT_GT(apart, 0U);
+}
+
+// Somebody who gives places to views gives them to each.
+TEST(RenderJob, ViewsWithPlacesOfTheirOwnStayThere) {
+    const FrameWorkload one = row_of(1);
+    RenderJob job = make_render_job(DataPathOptions(), 16, 1);
+    MemoryBases left, right;
+    left.given = right.given = true;
+    left.workspace = right.workspace = 0x1000;
+    right.ahead = 0x400;
+    left.frame_buffer = 0x8000;
+    right.frame_buffer = 0x4000;
+    job.add_together({borrowed(one), borrowed(one)}, {left, right});
+    EXPECT_EQ(job.map(0, {}).splats, 0x1000U);
+    EXPECT_EQ(job.map(1, {}).splats, 0x1400U);
+    EXPECT_EQ(job.map(1, {}).frame_buffer, 0x4000U);
+}
+
 TEST(RenderJob, ASourceMayEndEarly) {
     const FrameWorkload one = row_of(1);
     RenderJob job = job_from({&one, &one, &one});
