@@ -54,6 +54,7 @@ Image reference_of(const FrameWorkload& frame) {
 /// The image that its levels make up.
 Image whole(const FoveatedView& image, const std::vector<Image>& levels) {
     std::vector<const Image*> pointers;
+    pointers.reserve(levels.size());
     for (const Image& level : levels) {
         pointers.push_back(&level);
     }
