@@ -12,6 +12,16 @@
 #include "tlm/urgent.hpp"
 
 namespace degs {
+namespace {
+
+/// Takes away the extensions of a transaction, which belong to a port and to the transaction.
+void drop_extensions(tlm::tlm_generic_payload& payload) {
+    payload.set_extension<TimingOnly>(nullptr);
+    payload.set_extension<Urgent>(nullptr);
+    payload.set_extension<RequestInfo>(nullptr);
+}
+
+} // namespace
 
 AtRequester::AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator_socket<>& out,
                          const Limits& limits)
@@ -32,8 +42,7 @@ AtRequester::AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator
 // Transactions that are still in flight then must not free the extensions of a port.
 AtRequester::~AtRequester() {
     for (const auto& transaction : transactions_) {
-        transaction->set_extension<TimingOnly>(nullptr);
-        transaction->set_extension<Urgent>(nullptr);
+        drop_extensions(*transaction);
     }
 }
 
@@ -133,12 +142,15 @@ AtRequester::Transaction& AtRequester::make(const Payload& access, unsigned char
     part.burst.open(part, piece, data);
     part.set_extension(access.get_extension<TimingOnly>());
     part.set_extension(access.get_extension<Urgent>());
+    if (const auto* const info = access.get_extension<RequestInfo>()) {
+        part.info.copy_from(*info);
+        part.set_extension(&part.info);
+    }
     return part;
 }
 
 void AtRequester::free(Payload* payload) {
-    payload->set_extension<TimingOnly>(nullptr); // the port's
-    payload->set_extension<Urgent>(nullptr);
+    drop_extensions(*payload);
     payload->reset();
     free_.push_back(static_cast<Transaction*>(payload));
 }

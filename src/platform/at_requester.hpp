@@ -11,6 +11,7 @@
 #include <tlm>
 #include <tlm_utils/peq_with_get.h>
 
+#include "degs/request_info.hpp"
 #include "platform/full_burst.hpp"
 
 namespace degs {
@@ -79,6 +80,7 @@ private:
         bool by_phase = false; // answered with BEGIN_RESP, so END_RESP is due
         bool answered = false;
         FullBurst burst;
+        RequestInfo info; // of the access, for as long as a target holds the transaction
     };
     struct Queue { // of a rank, in the order of dates
         std::deque<Transaction*> waiting;

@@ -10,6 +10,32 @@
 
 namespace degs {
 
+namespace {
+
+bool is_power_of_two_from_4(std::uint64_t value) {
+    return value >= 4 && (value & (value - 1)) == 0;
+}
+
+/// Gives a payload its RequestInfo, and takes it away before the payload frees it.
+class Informed {
+public:
+    Informed(tlm::tlm_generic_payload& payload, RequestStream stream, std::uint32_t qos)
+        : payload_(payload) {
+        info_.stream = stream;
+        info_.qos = qos;
+        payload_.set_extension(&info_);
+    }
+    Informed(const Informed&) = delete;
+    Informed& operator=(const Informed&) = delete;
+    ~Informed() { payload_.clear_extension(&info_); }
+
+private:
+    tlm::tlm_generic_payload& payload_;
+    RequestInfo info_;
+};
+
+} // namespace
+
 MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name)
     : MemoryGateway(name, Options()) {}
 
@@ -31,9 +57,23 @@ MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options&
 
 std::string MemoryGateway::problem(const Options& options) {
     const std::uint64_t burst = options.burst_bytes;
-    if (burst != 0 && (burst < 4 || (burst & (burst - 1)) != 0)) {
+    const std::uint64_t boundary = options.boundary_bytes;
+    if (burst != 0 && !is_power_of_two_from_4(burst)) {
         return "memory.burst_bytes is " + std::to_string(burst) +
                ", but must be a power of two from 4 on, or 0";
+    }
+    if (boundary != 0 && !is_power_of_two_from_4(boundary)) {
+        return "memory.boundary_bytes is " + std::to_string(boundary) +
+               ", but must be a power of two from 4 on, or 0";
+    }
+    if (options.burst_ends == BurstEnds::FullBursts && boundary != 0 && boundary < burst) {
+        return "memory.burst_ends are full bursts of " + std::to_string(burst) +
+               " bytes, which cross the multiples of memory.boundary_bytes, " +
+               std::to_string(boundary);
+    }
+    if (options.qos > AcceleratorOptions::kMostQos) {
+        return "memory.qos is " + std::to_string(options.qos) + ", but must be at most " +
+               std::to_string(AcceleratorOptions::kMostQos);
     }
     if (burst == 0 && options.burst_ends == BurstEnds::FullBursts) {
         return "memory.burst_ends are full bursts, but memory.burst_bytes is 0, which cuts no "
@@ -59,6 +99,7 @@ void MemoryGateway::connect(const std::vector<MemoryStream>& streams) {
         in_[tag].register_b_transport(this, &MemoryGateway::serve, tag);
         in_[tag].register_transport_dbg(this, &MemoryGateway::debug_of, tag);
         stream.port->out.bind(in_[tag++]);
+        streams_.push_back(request_stream(stream.kind.name));
         of_scene_.push_back(scene_ && stream.kind.data == StreamData::Scene);
         if (of_scene_.back()) {
             stream.port->observe_reads(scene_);
@@ -80,11 +121,13 @@ tlm::tlm_sync_enum MemoryGateway::backward(tlm::tlm_generic_payload& payload, tl
 }
 
 void MemoryGateway::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+    const Informed informed(payload, RequestStream::SceneLoad, options_.qos);
     access(static_cast<unsigned>(traffic_.size()), payload, delay);
 }
 
 void MemoryGateway::serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
     pacer_.await_turn(static_cast<unsigned>(port), delay);
+    const Informed informed(payload, streams_[port], options_.qos);
     MemoryTraffic& traffic = traffic_[port];
     (payload.is_read() ? traffic.reads : traffic.writes)++;
     (payload.is_read() ? traffic.bytes_read : traffic.bytes_written) += payload.get_data_length();
@@ -135,12 +178,19 @@ void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload,
     ++under_way_;
     if (requester_) {
         requester_->transport(rank, payload, cut(payload), delay);
-    } else if (options_.burst_bytes == 0 && payload.get_extension<Scattered>() == nullptr) {
+    } else if (is_one_transaction(payload)) {
         out->b_transport(payload, delay);
     } else {
         access_pieces(rank, payload, cut(payload), delay);
     }
     end_access(delay);
+}
+
+bool MemoryGateway::is_one_transaction(const tlm::tlm_generic_payload& access) const {
+    const std::uint64_t boundary = options_.boundary_bytes;
+    return options_.burst_bytes == 0 && access.get_extension<Scattered>() == nullptr &&
+           (boundary == 0 ||
+            access.get_address() % boundary + access.get_data_length() <= boundary);
 }
 
 void MemoryGateway::end_access(const sc_core::sc_time& delay) {

@@ -12,6 +12,7 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include "degs/options.hpp"
+#include "degs/request_info.hpp"
 #include "modules/kit/memory/main_memory.hpp"
 #include "platform/access_pacer.hpp"
 #include "platform/at_requester.hpp"
@@ -22,9 +23,10 @@ namespace degs {
 
 /// Sends all streams of an accelerator through one TLM-2.0 initiator socket, for memory that
 /// belongs to a platform: every access moves real bytes, and the platform arbitrates. Scattered
-/// records go out as ordinary transactions at their own addresses, one per run of bytes. An access
-/// that the platform refuses is counted as an error and then treated as done: an accelerator ends
-/// its frame and reports the error in a register, and the simulation goes on.
+/// records go out as ordinary transactions at their own addresses, one per run of bytes. Every
+/// transaction carries its RequestInfo. An access that the platform refuses is counted as an error
+/// and then treated as done: an accelerator ends its frame and reports the error in a register, and
+/// the simulation goes on.
 class MemoryGateway : public sc_core::sc_module, public MainMemory {
 public:
     using Options = AcceleratorOptions::Memory;
@@ -83,8 +85,9 @@ public:
 private:
     using Pieces = std::vector<AccessPiece>;
     Pieces cut(const tlm::tlm_generic_payload& access) const {
-        return cut_into_bursts(access, options_.burst_bytes, options_.burst_ends);
+        return cut_into_bursts(access, options_);
     }
+    bool is_one_transaction(const tlm::tlm_generic_payload& access) const;
     void serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     void access(unsigned rank, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     std::shared_ptr<LateAnswer> start(int port, const tlm::tlm_generic_payload& payload);
@@ -104,7 +107,8 @@ private:
     InFlight in_flight_; // LT
     std::unique_ptr<AtRequester> requester_;
     std::vector<MemoryTraffic> traffic_;
-    std::vector<bool> of_scene_; // by stream
+    std::vector<bool> of_scene_;         // by stream
+    std::vector<RequestStream> streams_; // likewise
     Observer scene_;
     bool detached_ = false;
     unsigned under_way_ = 0;
