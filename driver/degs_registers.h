@@ -4,9 +4,9 @@
 #ifndef DEGS_REGISTERS_H
 #define DEGS_REGISTERS_H
 
-#define DEGS_REGISTER_BYTES             0x138u /* size of the register window */
+#define DEGS_REGISTER_BYTES             0x190u /* size of the register window */
 #define DEGS_ID_VALUE                   0x53476544u /* what ID holds */
-#define DEGS_VERSION_VALUE              0x00010002u /* what VERSION holds */
+#define DEGS_VERSION_VALUE              0x00010003u /* what VERSION holds */
 #define DEGS_BASE_ALIGNMENT             64u /* of all addresses, bytes */
 
 #define DEGS_REG_ID                     0x000u /* the bytes "DeGS" */
@@ -18,6 +18,7 @@
 #define DEGS_CONTROL_CLEAR_ERROR        (1u << 1) /* clear the error and the flags "aborted" and "start ignored" */
 #define DEGS_CONTROL_RESET              (1u << 2) /* reset; the other bits are ignored */
 #define DEGS_CONTROL_ABORT              (1u << 3) /* give up the present frame */
+#define DEGS_CONTROL_RESUME             (1u << 4) /* issue the access that has faulted again */
 
 #define DEGS_REG_STATUS                 0x00Cu /* state */
 #define DEGS_STATUS_BUSY                (1u << 0) /* a frame is being rendered */
@@ -26,16 +27,19 @@
 #define DEGS_STATUS_START_IGNORED       (1u << 3) /* a start was ignored because the accelerator was busy */
 #define DEGS_STATUS_IN_RESET            (1u << 4) /* a reset has not ended yet */
 #define DEGS_STATUS_ABORTED             (1u << 5) /* the last frame has been given up */
+#define DEGS_STATUS_FAULTED             (1u << 6) /* a refused access waits for RESUME or ABORT (an option of the model) */
 
 #define DEGS_REG_IRQ_ENABLE             0x010u /* interrupts that reach irq */
 #define DEGS_IRQ_ENABLE_DONE            (1u << 0) /* a frame is done */
 #define DEGS_IRQ_ENABLE_ERROR           (1u << 1) /* a frame ended with an error */
 #define DEGS_IRQ_ENABLE_ABORTED         (1u << 2) /* a frame has been given up */
+#define DEGS_IRQ_ENABLE_FAULT           (1u << 3) /* an access waits for software */
 
 #define DEGS_REG_IRQ_STATUS             0x014u /* pending interrupts; writing 1 clears; irq is high while an enabled bit is set */
 #define DEGS_IRQ_STATUS_DONE            (1u << 0) /* a frame is done */
 #define DEGS_IRQ_STATUS_ERROR           (1u << 1) /* a frame ended with an error */
 #define DEGS_IRQ_STATUS_ABORTED         (1u << 2) /* a frame has been given up */
+#define DEGS_IRQ_STATUS_FAULT           (1u << 3) /* an access waits for software */
 
 #define DEGS_REG_ERROR_CODE             0x018u /* see errors; 0 after a start */
 #define DEGS_ERROR_CODE_NONE            0u /* no error */
@@ -107,5 +111,25 @@
 #define DEGS_REG_FRAMES                 0x130u /* frames rendered so far, those with a bus error or a changed scene included */
 
 #define DEGS_REG_DROPPED                0x134u /* of the last frame: Gaussians that no renderer can draw */
+
+#define DEGS_REG_FAULT_ADDRESS          0x180u /* 2 words: of the access that has faulted, or of the last one; 0 after a start */
+
+#define DEGS_REG_FAULT_STREAM           0x188u /* its stream */
+#define DEGS_FAULT_STREAM_OTHER         0u /* one without a name here */
+#define DEGS_FAULT_STREAM_SCENE_LOAD    1u /* reading the scene before the frame */
+#define DEGS_FAULT_STREAM_GEOMETRY      2u /* geometry records */
+#define DEGS_FAULT_STREAM_SH            3u /* SH coefficients */
+#define DEGS_FAULT_STREAM_SPLATS_WRITTEN 4u /* splat records, written */
+#define DEGS_FAULT_STREAM_SPLATS_READ   5u /* splat records, read */
+#define DEGS_FAULT_STREAM_TILE_LISTS_WRITTEN 6u /* lists of tiles, written */
+#define DEGS_FAULT_STREAM_TILE_LISTS_SORTED 7u /* lists of tiles, read and sorted */
+#define DEGS_FAULT_STREAM_LIST_HEADS    8u /* where lists end */
+#define DEGS_FAULT_STREAM_FRAME_BUFFER  9u /* pixels */
+#define DEGS_FAULT_STREAM_MEANS         10u /* means of the geometry */
+#define DEGS_FAULT_STREAM_SHAPES        11u /* the rest of the geometry */
+#define DEGS_FAULT_STREAM_GROUP_LISTS_WRITTEN 12u /* lists of groups, written */
+#define DEGS_FAULT_STREAM_GROUP_LISTS_READ 13u /* lists of groups, read */
+
+#define DEGS_REG_FAULT_ANSWER           0x18Cu /* the answer of the bus to it */
 
 #endif

@@ -24,6 +24,11 @@ enum class Transport { Lt, At };
 /// written.
 enum class BurstEnds { Pieces, FullBursts };
 
+/// What becomes of an access that the platform refuses. `End`: it counts as done, and the frame
+/// ends with an error. `Stall`: it waits, and an interrupt tells software, which lets it go out
+/// again when it has, for instance, mapped the page, or gives the frame up.
+enum class RefusedAccess { End, Stall };
+
 /// When an accelerator issues the accesses of its streams. Its blocks run ahead of the kernel on
 /// dates of their own, which a memory that serves transactions in the order of the calls must not
 /// see.
@@ -65,7 +70,8 @@ struct AcceleratorOptions {
         /// B; no transaction crosses a multiple of this, a power of two from 4 on, such as the 4096
         /// of AMBA AXI. 0: `burst_bytes` alone decides. FullBursts: at least `burst_bytes`.
         std::uint64_t boundary_bytes = 0;
-        unsigned qos = 0;              ///< 0 to 15, see RequestInfo
+        unsigned qos = 0; ///< 0 to 15, see RequestInfo
+        RefusedAccess faults = RefusedAccess::End;
         Pacing pacing = Pacing::Exact; ///< AT is exact
     };
 

@@ -43,25 +43,31 @@ enum class Register : std::uint32_t {
     WorkspaceNeeded = 0x128,
     Frames = 0x130,
     Dropped = 0x134,
+    FaultAddress = 0x180,
+    FaultStream = 0x188,
+    FaultAnswer = 0x18C,
 };
-constexpr std::uint32_t kRegisterBytes = 0x138;
+constexpr std::uint32_t kRegisterBytes = 0x190;
 constexpr std::uint32_t kAcceleratorId = 0x53476544; ///< "DeGS" as bytes
-constexpr std::uint32_t kAcceleratorVersion = 0x00010002;
+constexpr std::uint32_t kAcceleratorVersion = 0x00010003;
 
 // Bits of Control, Status, and of IrqEnable and IrqStatus.
 constexpr std::uint32_t kControlStart = 1U << 0U;
 constexpr std::uint32_t kControlClearError = 1U << 1U;
 constexpr std::uint32_t kControlReset = 1U << 2U;
 constexpr std::uint32_t kControlAbort = 1U << 3U;
+constexpr std::uint32_t kControlResume = 1U << 4U;
 constexpr std::uint32_t kStatusBusy = 1U << 0U;
 constexpr std::uint32_t kStatusDone = 1U << 1U;
 constexpr std::uint32_t kStatusError = 1U << 2U;
 constexpr std::uint32_t kStatusStartIgnored = 1U << 3U;
 constexpr std::uint32_t kStatusInReset = 1U << 4U;
 constexpr std::uint32_t kStatusAborted = 1U << 5U;
+constexpr std::uint32_t kStatusFaulted = 1U << 6U;
 constexpr std::uint32_t kIrqDone = 1U << 0U;
 constexpr std::uint32_t kIrqError = 1U << 1U;
 constexpr std::uint32_t kIrqAborted = 1U << 2U;
+constexpr std::uint32_t kIrqFault = 1U << 3U;
 
 enum class FrameFormat : std::uint32_t { Rgba8 = 0, Rgba16F = 1 };
 

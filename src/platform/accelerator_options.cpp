@@ -60,6 +60,10 @@ void describe(AcceleratorOptions& options, ConfigVisitor& visitor) {
                 "no boundary");
     visit_count(visitor, "qos", options.memory.qos, 0, AcceleratorOptions::kMostQos,
                 "of every transaction, in its extension RequestInfo");
+    visitor.choice(
+        "faults", options.memory.faults, {"end", "stall"},
+        "what becomes of a refused access: it ends the frame with an error, or waits for "
+        "software");
     visitor.choice("pacing", options.memory.pacing, {"exact", "quantum", "annotated"},
                    "when accesses are issued");
     visitor.end_section();

@@ -50,7 +50,8 @@ MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options&
     if (options.transport == Transport::At) {
         requester_ = std::make_unique<AtRequester>(
             "requester", out,
-            AtRequester::Limits{options.outstanding, options.outstanding_per_stream});
+            AtRequester::Limits{options.outstanding, options.outstanding_per_stream},
+            options.faults == RefusedAccess::Stall ? &stalled_ : nullptr);
         out.register_nb_transport_bw(this, &MemoryGateway::backward);
     }
 }
@@ -179,7 +180,7 @@ void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload,
     if (requester_) {
         requester_->transport(rank, payload, cut(payload), delay);
     } else if (is_one_transaction(payload)) {
-        out->b_transport(payload, delay);
+        send(rank, payload, delay);
     } else {
         access_pieces(rank, payload, cut(payload), delay);
     }
@@ -206,6 +207,7 @@ void MemoryGateway::detach() {
     if (requester_) {
         requester_->detach();
     }
+    stalled_.drop();
 }
 
 void MemoryGateway::attach() {
@@ -214,6 +216,52 @@ void MemoryGateway::attach() {
     if (requester_) {
         requester_->attach();
     }
+}
+
+// Sends an LT transaction, and once more whenever software has resumed it.
+void MemoryGateway::send(unsigned rank, tlm::tlm_generic_payload& payload,
+                         sc_core::sc_time& delay) {
+    const std::uint64_t address = payload.get_address();
+    out->b_transport(payload, delay);
+    payload.set_address(address); // which an interconnect may have changed
+    while (options_.faults == RefusedAccess::Stall && payload.is_response_error()) {
+        const bool resumed = await_resume(payload, delay);
+        delay = sc_core::SC_ZERO_TIME;
+        if (resumed) {
+            pacer_.await_turn(rank, delay);
+        }
+        if (!resumed || detached_) {
+            payload.set_response_status(tlm::TLM_OK_RESPONSE);
+            return;
+        }
+        payload.set_dmi_allowed(false);
+        payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+        out->b_transport(payload, delay);
+        payload.set_address(address);
+    }
+}
+
+// A transaction has faulted when its answer comes. False if the frame is given up.
+bool MemoryGateway::await_resume(const tlm::tlm_generic_payload& refused,
+                                 const sc_core::sc_time& delay) {
+    if (delay > sc_core::SC_ZERO_TIME) {
+        sc_core::wait(delay);
+    }
+    if (detached_) {
+        return false;
+    }
+    bool again = false;
+    sc_core::sc_event resumes;
+    stalled_.add({refused.get_address(), refused.get_extension<RequestInfo>()->stream,
+                  refused.get_response_status()},
+                 [&again, &resumes] {
+                     again = true;
+                     resumes.notify(sc_core::SC_ZERO_TIME);
+                 });
+    while (!again) {
+        sc_core::wait(resumes);
+    }
+    return !detached_;
 }
 
 /// Waits until one more transaction may go out, for one that is dated `date`, as far as the pacing
@@ -252,7 +300,7 @@ void MemoryGateway::access_pieces(unsigned rank, tlm::tlm_generic_payload& paylo
         }
         sc_core::sc_time wait = await_room(rank, date) - sc_core::sc_time_stamp();
         burst.open(payload, piece, data);
-        out->b_transport(payload, wait);
+        send(rank, payload, wait);
         burst.close(payload);
         const sc_core::sc_time end = sc_core::sc_time_stamp() + wait;
         if (in_flight_.bounded()) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver in C: its header against the model, and a frame through its two functions.
-#include "degs/degs_driver.h"
+#include "degs/request_info.hpp"
 #include "modules/degs/config.hpp"
-#include "tests/platform/accelerator_bench.hpp"
+#include "tests/platform/driver_device.hpp"
 
 namespace degs::test {
 namespace {
@@ -49,6 +49,9 @@ TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
         {DEGS_REG_WORKSPACE_NEEDED, R::WorkspaceNeeded},
         {DEGS_REG_FRAMES, R::Frames},
         {DEGS_REG_DROPPED, R::Dropped},
+        {DEGS_REG_FAULT_ADDRESS, R::FaultAddress},
+        {DEGS_REG_FAULT_STREAM, R::FaultStream},
+        {DEGS_REG_FAULT_ANSWER, R::FaultAnswer},
     };
     ASSERT_EQ(offsets.size(), register_map().size());
     for (std::size_t i = 0; i < offsets.size(); ++i) {
@@ -64,18 +67,13 @@ TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
     EXPECT_EQ(DEGS_STATUS_BUSY, kStatusBusy);
     EXPECT_EQ(DEGS_STATUS_DONE, kStatusDone);
     EXPECT_EQ(DEGS_IRQ_STATUS_ERROR, kIrqError);
+    EXPECT_EQ(DEGS_CONTROL_RESUME, kControlResume);
+    EXPECT_EQ(DEGS_STATUS_FAULTED, kStatusFaulted);
+    EXPECT_EQ(DEGS_IRQ_STATUS_FAULT, kIrqFault);
+    EXPECT_EQ(DEGS_FAULT_STREAM_FRAME_BUFFER,
+              static_cast<std::uint32_t>(RequestStream::FrameBuffer));
     EXPECT_EQ(DEGS_ERROR_CODE_OUT_OF_MEMORY,
               static_cast<std::uint32_t>(AcceleratorError::OutOfMemory));
-}
-
-degs_device device_of(Host& host) {
-    return {&host,
-            [](void* to, std::uint32_t offset) {
-                return static_cast<Host*>(to)->read(static_cast<Register>(offset));
-            },
-            [](void* to, std::uint32_t offset, std::uint32_t value) {
-                static_cast<Host*>(to)->write(static_cast<Register>(offset), value);
-            }};
 }
 
 degs_camera view_of(const Camera& camera) {
