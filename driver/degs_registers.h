@@ -100,9 +100,9 @@
 
 #define DEGS_REG_LOAD_CYCLES            0x108u /* 2 words: of the last frame: reading the scene; 0 if the memory has debug transport */
 
-#define DEGS_REG_BYTES_READ             0x110u /* 2 words: of the last frame, in CYCLES */
+#define DEGS_REG_BYTES_READ             0x110u /* 2 words: of the last frame, in CYCLES: of its transactions, full bursts as a whole */
 
-#define DEGS_REG_BYTES_WRITTEN          0x118u /* 2 words: of the last frame */
+#define DEGS_REG_BYTES_WRITTEN          0x118u /* 2 words: of the last frame, likewise */
 
 #define DEGS_REG_FRAGMENTS              0x120u /* 2 words: of the last frame: pixel updates; with outward span ends more than its useful PE slots */
 

@@ -131,7 +131,7 @@ void MemoryGateway::serve(int port, tlm::tlm_generic_payload& payload, sc_core::
     const Informed informed(payload, streams_[port], options_.qos);
     MemoryTraffic& traffic = traffic_[port];
     (payload.is_read() ? traffic.reads : traffic.writes)++;
-    (payload.is_read() ? traffic.bytes_read : traffic.bytes_written) += payload.get_data_length();
+    (payload.is_read() ? traffic.bytes_read : traffic.bytes_written) += bus_bytes(payload);
     auto* const late = payload.get_extension<MayAnswerLate>();
     if (requester_ && late != nullptr && !detached_) {
         late->answer = start(port, payload);
@@ -185,6 +185,18 @@ void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload,
         access_pieces(rank, payload, cut(payload), delay);
     }
     end_access(delay);
+}
+
+// Bytes of the transactions that an access becomes.
+std::uint64_t MemoryGateway::bus_bytes(const tlm::tlm_generic_payload& access) const {
+    if (options_.burst_ends == BurstEnds::Pieces) {
+        return access.get_data_length();
+    }
+    std::uint64_t bytes = 0;
+    for (const AccessPiece& piece : cut(access)) {
+        bytes += piece.length();
+    }
+    return bytes;
 }
 
 bool MemoryGateway::is_one_transaction(const tlm::tlm_generic_payload& access) const {

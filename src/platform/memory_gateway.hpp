@@ -91,6 +91,7 @@ private:
     Pieces cut(const tlm::tlm_generic_payload& access) const {
         return cut_into_bursts(access, options_);
     }
+    std::uint64_t bus_bytes(const tlm::tlm_generic_payload& access) const;
     bool is_one_transaction(const tlm::tlm_generic_payload& access) const;
     void serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     void access(unsigned rank, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
