@@ -123,13 +123,27 @@ void degs_set_frame_buffer(const degs_device *device, uint64_t address, uint32_t
 /* What is still pending belongs to frames before, and would fire the interrupt of this one at once. */
 void degs_start(const degs_device *device, uint32_t interrupts) {
     write_word(device, DEGS_REG_IRQ_STATUS,
-               DEGS_IRQ_STATUS_DONE | DEGS_IRQ_STATUS_ERROR | DEGS_IRQ_STATUS_ABORTED);
+               DEGS_IRQ_STATUS_DONE | DEGS_IRQ_STATUS_ERROR | DEGS_IRQ_STATUS_ABORTED | DEGS_IRQ_STATUS_FAULT);
     write_word(device, DEGS_REG_IRQ_ENABLE, interrupts);
     write_word(device, DEGS_REG_CONTROL, DEGS_CONTROL_CLEAR_ERROR | DEGS_CONTROL_START);
 }
 
 void degs_abort(const degs_device *device) {
     write_word(device, DEGS_REG_CONTROL, DEGS_CONTROL_ABORT);
+}
+
+int degs_read_fault(const degs_device *device, degs_fault *fault) {
+    if ((read_word(device, DEGS_REG_STATUS) & DEGS_STATUS_FAULTED) == 0) {
+        return 0;
+    }
+    fault->address = read_pair(device, DEGS_REG_FAULT_ADDRESS);
+    fault->stream = read_word(device, DEGS_REG_FAULT_STREAM);
+    fault->answer = read_word(device, DEGS_REG_FAULT_ANSWER);
+    return 1;
+}
+
+void degs_resume(const degs_device *device) {
+    write_word(device, DEGS_REG_CONTROL, DEGS_CONTROL_RESUME);
 }
 
 int degs_busy(const degs_device *device) {

@@ -90,6 +90,13 @@ typedef struct degs_counters {
     uint32_t dropped; /* Gaussians that cannot be drawn */
 } degs_counters;
 
+/* An access that the memory has refused. */
+typedef struct degs_fault {
+    uint64_t address;
+    uint32_t stream; /* DEGS_FAULT_STREAM_ */
+    uint32_t answer; /* of the bus: 1 address, 2 command, 3 burst, 4 byte enable, 5 generic error, 6 no answer */
+} degs_fault;
+
 /* Whether there is an accelerator whose registers have the layout of this header: 1 or 0. */
 int degs_probe(const degs_device *device);
 
@@ -121,6 +128,11 @@ void degs_set_frame_buffer(const degs_device *device, uint64_t address, uint32_t
 void degs_start(const degs_device *device, uint32_t interrupts);
 /* Gives up the present frame; the accelerator is busy until it has. */
 void degs_abort(const degs_device *device);
+/* Whether an access has faulted and waits: 1 or 0. Then `fault` is the oldest one. After an interrupt: degs_acknowledge,
+ * then, as long as this returns 1, for instance map the page, and degs_resume. */
+int degs_read_fault(const degs_device *device, degs_fault *fault);
+/* Lets the access of degs_read_fault go out again. degs_abort gives it up together with its frame. */
+void degs_resume(const degs_device *device);
 /* Whether a frame is being rendered: 1 or 0. */
 int degs_busy(const degs_device *device);
 /* Resets the accelerator, which gives up its frame and forgets its registers, and reads STATUS at most `polls` times

@@ -18,6 +18,7 @@
 #define DEGS_CONTROL_CLEAR_ERROR        (1u << 1) /* clear the error and the flags "aborted" and "start ignored" */
 #define DEGS_CONTROL_RESET              (1u << 2) /* reset; the other bits are ignored */
 #define DEGS_CONTROL_ABORT              (1u << 3) /* give up the present frame */
+#define DEGS_CONTROL_RESUME             (1u << 4) /* issue the access that has faulted again */
 
 #define DEGS_REG_STATUS                 0x00Cu /* state */
 #define DEGS_STATUS_BUSY                (1u << 0) /* a frame is being rendered */
@@ -26,16 +27,19 @@
 #define DEGS_STATUS_START_IGNORED       (1u << 3) /* a start was ignored because the accelerator was busy */
 #define DEGS_STATUS_IN_RESET            (1u << 4) /* a reset has not ended yet */
 #define DEGS_STATUS_ABORTED             (1u << 5) /* the last frame has been given up */
+#define DEGS_STATUS_FAULTED             (1u << 6) /* a refused access waits for RESUME or ABORT (an option of the model) */
 
 #define DEGS_REG_IRQ_ENABLE             0x010u /* interrupts that reach irq */
 #define DEGS_IRQ_ENABLE_DONE            (1u << 0) /* a frame is done */
 #define DEGS_IRQ_ENABLE_ERROR           (1u << 1) /* a frame ended with an error */
 #define DEGS_IRQ_ENABLE_ABORTED         (1u << 2) /* a frame has been given up */
+#define DEGS_IRQ_ENABLE_FAULT           (1u << 3) /* an access waits for software */
 
 #define DEGS_REG_IRQ_STATUS             0x014u /* pending interrupts; writing 1 clears; irq is high while an enabled bit is set */
 #define DEGS_IRQ_STATUS_DONE            (1u << 0) /* a frame is done */
 #define DEGS_IRQ_STATUS_ERROR           (1u << 1) /* a frame ended with an error */
 #define DEGS_IRQ_STATUS_ABORTED         (1u << 2) /* a frame has been given up */
+#define DEGS_IRQ_STATUS_FAULT           (1u << 3) /* an access waits for software */
 
 #define DEGS_REG_ERROR_CODE             0x018u /* see errors; 0 after a start */
 #define DEGS_ERROR_CODE_NONE            0u /* no error */
@@ -98,9 +102,9 @@
 
 #define DEGS_REG_LOAD_CYCLES            0x108u /* 2 words: of the last frame: reading the scene; 0 if the memory has debug transport */
 
-#define DEGS_REG_BYTES_READ             0x110u /* 2 words: of the last frame, in CYCLES */
+#define DEGS_REG_BYTES_READ             0x110u /* 2 words: of the last frame, in CYCLES: of its transactions, full bursts as a whole */
 
-#define DEGS_REG_BYTES_WRITTEN          0x118u /* 2 words: of the last frame */
+#define DEGS_REG_BYTES_WRITTEN          0x118u /* 2 words: of the last frame, likewise */
 
 #define DEGS_REG_FRAGMENTS              0x120u /* 2 words: of the last frame: pixel updates; with outward span ends more than its useful PE slots */
 
@@ -133,6 +137,26 @@
 #define DEGS_REG_VIEW_X                 0x178u /* its first column among all of its size in the image */
 
 #define DEGS_REG_VIEW_Y                 0x17Cu /* the same of its first row */
+
+#define DEGS_REG_FAULT_ADDRESS          0x180u /* 2 words: of the access that has faulted, or of the last one; 0 after a start */
+
+#define DEGS_REG_FAULT_STREAM           0x188u /* its stream */
+#define DEGS_FAULT_STREAM_OTHER         0u /* one without a name here */
+#define DEGS_FAULT_STREAM_SCENE_LOAD    1u /* reading the scene before the frame */
+#define DEGS_FAULT_STREAM_GEOMETRY      2u /* geometry records */
+#define DEGS_FAULT_STREAM_SH            3u /* SH coefficients */
+#define DEGS_FAULT_STREAM_SPLATS_WRITTEN 4u /* splat records, written */
+#define DEGS_FAULT_STREAM_SPLATS_READ   5u /* splat records, read */
+#define DEGS_FAULT_STREAM_TILE_LISTS_WRITTEN 6u /* lists of tiles, written */
+#define DEGS_FAULT_STREAM_TILE_LISTS_SORTED 7u /* lists of tiles, read and sorted */
+#define DEGS_FAULT_STREAM_LIST_HEADS    8u /* where lists end */
+#define DEGS_FAULT_STREAM_FRAME_BUFFER  9u /* pixels */
+#define DEGS_FAULT_STREAM_MEANS         10u /* means of the geometry */
+#define DEGS_FAULT_STREAM_SHAPES        11u /* the rest of the geometry */
+#define DEGS_FAULT_STREAM_GROUP_LISTS_WRITTEN 12u /* lists of groups, written */
+#define DEGS_FAULT_STREAM_GROUP_LISTS_READ 13u /* lists of groups, read */
+
+#define DEGS_REG_FAULT_ANSWER           0x18Cu /* the answer of the bus to it */
 
 #define DEGS_REG_VIEW_SHOWN             0x200u /* 4 words: first column and row, width and height of what it shows of the image, in pixels of the image, with what finer levels show */
 

@@ -22,7 +22,8 @@ class AcceleratorCore;
 /// transactions where the memory has no debug transport. The
 /// model then reads the same bytes again when its blocks do, and writes real pixels. Bytes that
 /// differ by then are an error, and so are refused accesses and bad registers. A frame always ends
-/// with Done, Error or Aborted and, if enabled, the interrupt. Nothing throws.
+/// with Done, Error or Aborted and, if enabled, the interrupt. Nothing throws. With
+/// Options::memory.faults = Stall a refused access waits for software in place of the error.
 ///
 /// A reset or an abort cuts the blocks off the bus and lets them hurry through the rest of the
 /// frame: no block knows of it, and all are then where they are between frames.
@@ -74,6 +75,7 @@ private:
     void run();
     void drive_irq();
     void begin_stop();
+    void resume_access();
 
     std::unique_ptr<AcceleratorCore> core_;
 };

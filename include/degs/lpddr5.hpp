@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <systemc>
 #include <tlm>
@@ -18,8 +19,9 @@ class Lpddr5;
 /// A main memory at bank level, as docs/lpddr5.md and docs/memories.md describe it, for LT and AT
 /// initiators of 32-bit sockets at once. It serves accesses in the order of their dates (kernel
 /// time plus annotated delay), so the accelerator may annotate them: MemoryOptions::pacing =
-/// Annotated. Contents are 0 at first and moved by debug transport, too. Direct memory access is
-/// refused unless the configuration allows it.
+/// Annotated. Contents are 0 at first and moved by debug transport, too, as far as the memory
+/// reaches. Byte enables say which bytes of an access move; whole bursts go over the bus. Direct
+/// memory access is refused unless the configuration allows it.
 class Lpddr5 : public sc_core::sc_module {
 public:
     /// `file`: a configuration as configs/memory has them; empty: LPDDR5-6400 of 256 bit. Throws
@@ -36,9 +38,19 @@ public:
 
     std::uint64_t capacity() const; ///< bytes
     double peak_gb_per_s() const;   ///< 1e9 B/s
-    /// Bytes that moved for an initiator, in whole bursts.
-    std::uint64_t bytes_read(std::size_t initiator) const;
-    std::uint64_t bytes_written(std::size_t initiator) const;
+
+    /// A number that the memory has counted since the start of the simulation.
+    struct Statistic {
+        std::string name; ///< "commands.act1"; those that `degs memory` measures have its names
+        std::string unit, meaning;
+        double value = 0; ///< counts are whole numbers
+    };
+    /// All of the memory, and those of one initiator, whose requests count when they are answered.
+    std::vector<Statistic> statistics();
+    std::vector<Statistic> statistics(std::size_t initiator) const;
+    /// One of them. Throws InputError, one sentence with the nearest name, if there is none.
+    double statistic(const std::string& name);
+    double statistic(const std::string& name, std::size_t initiator) const;
 
 private:
     std::size_t checked(std::size_t initiator) const;

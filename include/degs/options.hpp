@@ -24,6 +24,11 @@ enum class Transport { Lt, At };
 /// written.
 enum class BurstEnds { Pieces, FullBursts };
 
+/// What becomes of an access that the platform refuses. `End`: it counts as done, and the frame
+/// ends with an error. `Stall`: it waits, and an interrupt tells software, which lets it go out
+/// again when it has, for instance, mapped the page, or gives the frame up.
+enum class RefusedAccess { End, Stall };
+
 /// When an accelerator issues the accesses of its streams. Its blocks run ahead of the kernel on
 /// dates of their own, which a memory that serves transactions in the order of the calls must not
 /// see.
@@ -42,6 +47,8 @@ struct AcceleratorOptions {
     /// The largest limit on the Gaussians of a scene, whose geometry then takes 44 GiB. Indices
     /// have 32 bits.
     static constexpr std::uint32_t kMostGaussians = 1U << 30U;
+    /// The largest Memory::qos.
+    static constexpr unsigned kMostQos = 15;
 
     struct Limits {
         std::uint32_t gaussians = kMostGaussians; ///< of a scene, at least 1
@@ -57,10 +64,15 @@ struct AcceleratorOptions {
         /// LT: likewise, of all streams; 0, the default, is no bound. Only with `burst_bytes`.
         unsigned lt_outstanding = 0;
         /// B; accesses are cut into naturally aligned transactions of a power of two up to this. A
-        /// power of two from 4 on, or 0, which cuts nothing.
+        /// power of two from 4 on, or 0, which cuts at `boundary_bytes` alone.
         std::uint64_t burst_bytes = 0;
         BurstEnds burst_ends = BurstEnds::Pieces; ///< FullBursts: only with `burst_bytes`
-        Pacing pacing = Pacing::Exact;            ///< AT is exact
+        /// B; no transaction crosses a multiple of this, a power of two from 4 on, such as the 4096
+        /// of AMBA AXI. 0: `burst_bytes` alone decides. FullBursts: at least `burst_bytes`.
+        std::uint64_t boundary_bytes = 0;
+        unsigned qos = 0; ///< 0 to 15, see RequestInfo
+        RefusedAccess faults = RefusedAccess::End;
+        Pacing pacing = Pacing::Exact; ///< AT is exact
     };
 
     Limits limits;

@@ -55,6 +55,9 @@ enum class Register : std::uint32_t {
     ViewHeight = 0x174,
     ViewX = 0x178,
     ViewY = 0x17C,
+    FaultAddress = 0x180,
+    FaultStream = 0x188,
+    FaultAnswer = 0x18C,
     ViewShown = 0x200,
     ViewEntry = 0x210,
 };
@@ -67,15 +70,18 @@ constexpr std::uint32_t kControlStart = 1U << 0U;
 constexpr std::uint32_t kControlClearError = 1U << 1U;
 constexpr std::uint32_t kControlReset = 1U << 2U;
 constexpr std::uint32_t kControlAbort = 1U << 3U;
+constexpr std::uint32_t kControlResume = 1U << 4U;
 constexpr std::uint32_t kStatusBusy = 1U << 0U;
 constexpr std::uint32_t kStatusDone = 1U << 1U;
 constexpr std::uint32_t kStatusError = 1U << 2U;
 constexpr std::uint32_t kStatusStartIgnored = 1U << 3U;
 constexpr std::uint32_t kStatusInReset = 1U << 4U;
 constexpr std::uint32_t kStatusAborted = 1U << 5U;
+constexpr std::uint32_t kStatusFaulted = 1U << 6U;
 constexpr std::uint32_t kIrqDone = 1U << 0U;
 constexpr std::uint32_t kIrqError = 1U << 1U;
 constexpr std::uint32_t kIrqAborted = 1U << 2U;
+constexpr std::uint32_t kIrqFault = 1U << 3U;
 
 enum class FrameFormat : std::uint32_t { Rgba8 = 0, Rgba16F = 1 };
 

@@ -22,7 +22,9 @@ namespace degs::dram {
 ///
 /// Requests are served in the order of their dates (kernel time plus annotated delay), ties broken
 /// by socket index; contents change in the same order. A payload with the extension TimingOnly
-/// takes time and moves no data; one with Scattered moves every record at its own address.
+/// takes time and moves no data; one with Scattered moves every record at its own address. Of a
+/// payload with byte enables the enabled bytes move, in the time of all of them: whole bursts go
+/// over the bus.
 ///
 /// AT, the accurate path: four phases. END_REQ comes at once unless `waiting_requests` requests of
 /// the initiator wait for room in the controllers' queues; then it is withheld until one has got
@@ -41,6 +43,7 @@ public:
         std::uint64_t bytes_read = 0, bytes_written = 0; ///< in whole bursts
         LatencyHistogram read_latency, write_latency;    ///< date of the request to its answer
         sc_core::sc_time last_answer;
+        void describe(StatsVisitor& v) const;
     };
 
     sc_core::sc_vector<tlm_utils::simple_target_socket_tagged<Lpddr5>> in;
@@ -56,6 +59,10 @@ public:
 
     const Stats& stats(std::size_t initiator) const { return stats_[initiator]; }
     Stats total() const;
+    /// All numbers of the memory up to now, and those of one initiator, whose requests count when
+    /// they are answered.
+    void describe(StatsVisitor& v);
+    void describe(std::size_t initiator, StatsVisitor& v) const;
     /// Counters of all channels, up to now.
     Channel::Stats commands() { return commands(sc_core::sc_time_stamp()); }
     Energy energy() { return energy(sc_core::sc_time_stamp()); }

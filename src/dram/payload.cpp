@@ -6,12 +6,36 @@
 #include "tlm/scattered_records.hpp"
 
 namespace degs::dram {
+namespace {
+
+/// Calls visit(offset, bytes) for every run of enabled bytes among those of the data array from
+/// `begin` to `end`. The enables of a payload repeat.
+template <class Visit>
+void each_enabled(const tlm::tlm_generic_payload& payload, std::uint64_t begin, std::uint64_t end,
+                  const Visit& visit) {
+    const unsigned char* const enables = payload.get_byte_enable_ptr();
+    const auto enabled = [&](std::uint64_t at) {
+        return enables[at % payload.get_byte_enable_length()] != TLM_BYTE_DISABLED;
+    };
+    for (std::uint64_t at = begin; at != end;) {
+        std::uint64_t next = at + 1;
+        while (next != end && enabled(next) == enabled(at)) {
+            ++next;
+        }
+        if (enabled(at)) {
+            visit(at, next - at);
+        }
+        at = next;
+    }
+}
+
+} // namespace
 
 tlm::tlm_response_status Lpddr5::check(const Payload& payload) const {
     if (!payload.is_read() && !payload.is_write()) {
         return tlm::TLM_COMMAND_ERROR_RESPONSE;
     }
-    if (payload.get_byte_enable_ptr() != nullptr) {
+    if (payload.get_byte_enable_ptr() != nullptr && payload.get_byte_enable_length() == 0) {
         return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
     }
     if (payload.get_data_length() == 0 ||
@@ -26,13 +50,24 @@ tlm::tlm_response_status Lpddr5::check(const Payload& payload) const {
     return inside ? tlm::TLM_OK_RESPONSE : tlm::TLM_ADDRESS_ERROR_RESPONSE;
 }
 
+// The bytes that are not enabled stay as they are, in the memory and in the payload.
 void Lpddr5::copy(const Payload& payload) {
-    for_each_run(payload, [&](std::uint64_t address, unsigned char* data, std::uint64_t bytes) {
+    const auto move = [&](std::uint64_t address, unsigned char* data, std::uint64_t bytes) {
         if (payload.is_write()) {
             storage_.write(address, data, bytes);
         } else {
             storage_.read(address, data, bytes);
         }
+    };
+    for_each_run(payload, [&](std::uint64_t address, unsigned char* data, std::uint64_t bytes) {
+        if (payload.get_byte_enable_ptr() == nullptr) {
+            move(address, data, bytes);
+            return;
+        }
+        const std::uint64_t begin = data - payload.get_data_ptr();
+        each_enabled(payload, begin, begin + bytes, [&](std::uint64_t at, std::uint64_t count) {
+            move(address + at - begin, payload.get_data_ptr() + at, count);
+        });
     });
 }
 

@@ -22,6 +22,9 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     sensitive << core_->irq_changed();
     SC_METHOD(begin_stop);
     sensitive << core_->stop_requested() << reset_n;
+    SC_METHOD(resume_access);
+    sensitive << core_->resume_requested();
+    dont_initialize();
 }
 
 Accelerator::~Accelerator() = default;
@@ -60,6 +63,10 @@ void Accelerator::drive_irq() {
 
 void Accelerator::begin_stop() {
     core_->begin_stop();
+}
+
+void Accelerator::resume_access() {
+    core_->resume_access();
 }
 
 } // namespace degs

@@ -88,6 +88,9 @@ void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay)
     if ((bits & kControlAbort) != 0 && (status & kStatusBusy) != 0) {
         request_stop(Stop::Abort, delay);
         stop_requested_.notify(delay);
+    } else if ((bits & kControlResume) != 0 && (status & kStatusFaulted) != 0) {
+        set_status(0, kStatusFaulted);
+        resume_requested_.notify(delay);
     }
     if ((bits & kControlClearError) != 0) {
         set_status(0, kStatusError | kStatusStartIgnored | kStatusAborted);
@@ -106,6 +109,9 @@ void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay)
     set_status(kStatusBusy, kStatusDone | kStatusError | kStatusAborted);
     registers_.set(Register::ErrorCode, 0);
     registers_.set(Register::ErrorDetail, 0);
+    if ((status & kStatusFaulted) == 0) { // else a read that the frame before did not wait for
+        clear_fault();
+    }
     request_ = AcceleratorRequest::read(registers_, options_.limits);
     started_ = true;
     start_date_ = sc_core::sc_time_stamp() + delay;

@@ -46,6 +46,7 @@ AcceleratorCore::AcceleratorCore(Accelerator& shell, const AcceleratorConfig& co
         [this](std::uint64_t address, const unsigned char* data, std::uint64_t bytes) {
             scene_changed_ = scene_changed_ || !scene_.matches(address, data, bytes);
         });
+    gateway_.stalled().observe([this] { show_fault(); });
     job_ = make_render_job(*config_);
     job_.keeps_results = false;
     job_.is_open = true;
@@ -77,6 +78,27 @@ void AcceleratorCore::set_status(std::uint32_t set, std::uint32_t clear) {
     registers_.set(Register::Status, status);
     lines_.busy = (status & kStatusBusy) != 0;
     lines_.in_reset = (status & kStatusInReset) != 0;
+}
+
+// Shows the access that waits longest, unless the frame is being given up anyway.
+void AcceleratorCore::show_fault() {
+    if (stop_ != Stop::None) {
+        return;
+    }
+    const AccessFault& fault = *gateway_.stalled().oldest();
+    registers_.set_pair(Register::FaultAddress, fault.address);
+    registers_.set(Register::FaultStream, static_cast<std::uint32_t>(fault.stream));
+    registers_.set(Register::FaultAnswer, detail_of(fault.answer));
+    set_status(kStatusFaulted, 0);
+    registers_.set(Register::IrqStatus, registers_.get(Register::IrqStatus) | kIrqFault);
+    irq_changed_.notify(sc_core::SC_ZERO_TIME);
+}
+
+// Forgets the fault of a frame before.
+void AcceleratorCore::clear_fault() {
+    registers_.set_pair(Register::FaultAddress, 0);
+    registers_.set(Register::FaultStream, 0);
+    registers_.set(Register::FaultAnswer, 0);
 }
 
 // A start or a stop may have come before this process first ran, and its date may still be ahead.

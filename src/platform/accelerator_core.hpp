@@ -36,8 +36,10 @@ public:
     void run();
     void drive_irq();
     void begin_stop();
+    void resume_access() { gateway_.stalled().resume(); }
     const sc_core::sc_event& irq_changed() const { return irq_changed_; }
     const sc_core::sc_event& stop_requested() const { return stop_requested_; }
+    const sc_core::sc_event& resume_requested() const { return resume_requested_; }
 
 private:
     std::unique_ptr<AcceleratorConfig> checked(const AcceleratorConfig& config) const;
@@ -70,6 +72,8 @@ private:
     void show_view();
     void end_frame(const AcceleratorFault& fault);
     void set_status(std::uint32_t set, std::uint32_t clear);
+    void show_fault();
+    void clear_fault();
 
     Accelerator& shell_;
     std::unique_ptr<AcceleratorConfig> config_;
@@ -96,7 +100,7 @@ private:
     Stop stop_ = Stop::None;
     sc_core::sc_time start_date_, stop_date_; // which may lie ahead of the kernel's time
     sc_core::sc_event work_;                  // wakes run(), which looks for what is due
-    sc_core::sc_event stop_requested_, irq_changed_;
+    sc_core::sc_event stop_requested_, resume_requested_, irq_changed_;
 };
 
 } // namespace degs

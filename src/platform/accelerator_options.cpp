@@ -51,10 +51,19 @@ void describe(AcceleratorOptions& options, ConfigVisitor& visitor) {
     visit_count(visitor, "lt_outstanding", options.memory.lt_outstanding, 0,
                 "lt: transactions in flight; 0 is no bound");
     visit_count(visitor, "burst_bytes", options.memory.burst_bytes, 0,
-                "bytes; a power of two from 4 on, 0 cuts no access");
+                "bytes; a power of two from 4 on, 0 cuts at boundary_bytes alone");
     visitor.choice("burst_ends", options.memory.burst_ends, {"pieces", "full_bursts"},
                    "where an access begins or ends inside of a burst: smaller transactions, or the "
                    "whole burst, with byte enables if it is written");
+    visit_count(visitor, "boundary_bytes", options.memory.boundary_bytes, 0,
+                "bytes; a power of two from 4 on, of which no transaction crosses a multiple; 0 is "
+                "no boundary");
+    visit_count(visitor, "qos", options.memory.qos, 0, AcceleratorOptions::kMostQos,
+                "of every transaction, in its extension RequestInfo");
+    visitor.choice(
+        "faults", options.memory.faults, {"end", "stall"},
+        "what becomes of a refused access: it ends the frame with an error, or waits for "
+        "software");
     visitor.choice("pacing", options.memory.pacing, {"exact", "quantum", "annotated"},
                    "when accesses are issued");
     visitor.end_section();

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "degs/request_info.hpp"
+
 namespace degs {
 
 namespace {
@@ -17,7 +19,8 @@ std::uint32_t bit_of(std::uint32_t mask) {
 std::vector<RegisterField> interrupts() {
     return {{"DONE", bit_of(kIrqDone), "a frame is done"},
             {"ERROR", bit_of(kIrqError), "a frame ended with an error"},
-            {"ABORTED", bit_of(kIrqAborted), "a frame has been given up"}};
+            {"ABORTED", bit_of(kIrqAborted), "a frame has been given up"},
+            {"FAULT", bit_of(kIrqFault), "an access waits for software"}};
 }
 
 std::vector<RegisterValue> formats() {
@@ -51,6 +54,30 @@ std::vector<RegisterValue> errors() {
     };
 }
 
+RegisterValue stream(const char* name, RequestStream which, const char* meaning) {
+    return {name, static_cast<std::uint32_t>(which), meaning};
+}
+
+std::vector<RegisterValue> streams() {
+    using S = RequestStream;
+    return {
+        stream("OTHER", S::Other, "one without a name here"),
+        stream("SCENE_LOAD", S::SceneLoad, "reading the scene before the frame"),
+        stream("GEOMETRY", S::Geometry, "geometry records"),
+        stream("SH", S::Sh, "SH coefficients"),
+        stream("SPLATS_WRITTEN", S::SplatsWritten, "splat records, written"),
+        stream("SPLATS_READ", S::SplatsRead, "splat records, read"),
+        stream("TILE_LISTS_WRITTEN", S::TileListsWritten, "lists of tiles, written"),
+        stream("TILE_LISTS_SORTED", S::TileListsSorted, "lists of tiles, read and sorted"),
+        stream("LIST_HEADS", S::ListHeads, "where lists end"),
+        stream("FRAME_BUFFER", S::FrameBuffer, "pixels"),
+        stream("MEANS", S::Means, "means of the geometry"),
+        stream("SHAPES", S::Shapes, "the rest of the geometry"),
+        stream("GROUP_LISTS_WRITTEN", S::GroupListsWritten, "lists of groups, written"),
+        stream("GROUP_LISTS_READ", S::GroupListsRead, "lists of groups, read"),
+    };
+}
+
 // What a driver sets, then what the accelerator answers.
 std::vector<RegisterInfo> rows() {
     using R = Register;
@@ -68,7 +95,8 @@ std::vector<RegisterInfo> rows() {
           {"CLEAR_ERROR", bit_of(kControlClearError),
            R"(clear the error and the flags "aborted" and "start ignored")"},
           {"RESET", bit_of(kControlReset), "reset; the other bits are ignored"},
-          {"ABORT", bit_of(kControlAbort), "give up the present frame"}}},
+          {"ABORT", bit_of(kControlAbort), "give up the present frame"},
+          {"RESUME", bit_of(kControlResume), "issue the access that has faulted again"}}},
         {R::Status,
          1,
          "STATUS",
@@ -80,7 +108,9 @@ std::vector<RegisterInfo> rows() {
           {"START_IGNORED", bit_of(kStatusStartIgnored),
            "a start was ignored because the accelerator was busy"},
           {"IN_RESET", bit_of(kStatusInReset), "a reset has not ended yet"},
-          {"ABORTED", bit_of(kStatusAborted), "the last frame has been given up"}}},
+          {"ABORTED", bit_of(kStatusAborted), "the last frame has been given up"},
+          {"FAULTED", bit_of(kStatusFaulted),
+           "a refused access waits for RESUME or ABORT (an option of the model)"}}},
         {R::IrqEnable, 1, "IRQ_ENABLE", rw, "interrupts that reach `irq`", interrupts()},
         {R::IrqStatus, 1, "IRQ_STATUS", Access::WriteOneToClear,
          "pending interrupts; writing 1 clears; `irq` is high while an enabled bit is set",
@@ -115,8 +145,9 @@ std::vector<RegisterInfo> rows() {
         {R::Cycles, 2, "CYCLES", r, "of the last frame: scene loaded to last pixel in memory"},
         {R::LoadCycles, 2, "LOAD_CYCLES", r,
          "of the last frame: reading the scene; 0 if the memory has debug transport"},
-        {R::BytesRead, 2, "BYTES_READ", r, "of the last frame, in `CYCLES`"},
-        {R::BytesWritten, 2, "BYTES_WRITTEN", r, "of the last frame"},
+        {R::BytesRead, 2, "BYTES_READ", r,
+         "of the last frame, in `CYCLES`: of its transactions, full bursts as a whole"},
+        {R::BytesWritten, 2, "BYTES_WRITTEN", r, "of the last frame, likewise"},
         {R::Fragments, 2, "FRAGMENTS", r,
          "of the last frame: pixel updates; with outward span ends more than its useful PE slots"},
         {R::WorkspaceNeeded, 2, "WORKSPACE_NEEDED", r,
@@ -146,6 +177,10 @@ std::vector<RegisterInfo> rows() {
         {R::ViewHeight, 1, "VIEW_HEIGHT", r, "its rows"},
         {R::ViewX, 1, "VIEW_X", r, "its first column among all of its size in the image"},
         {R::ViewY, 1, "VIEW_Y", r, "the same of its first row"},
+        {R::FaultAddress, 2, "FAULT_ADDRESS", r,
+         "of the access that has faulted, or of the last one; 0 after a start"},
+        {R::FaultStream, 1, "FAULT_STREAM", r, "its stream", {}, streams()},
+        {R::FaultAnswer, 1, "FAULT_ANSWER", r, "the answer of the bus to it"},
         {R::ViewShown, 4, "VIEW_SHOWN", r,
          "first column and row, width and height of what it shows of the image, in pixels of the "
          "image, with what finer levels show"},

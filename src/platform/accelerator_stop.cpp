@@ -23,6 +23,8 @@ void AcceleratorCore::request_stop(Stop why, const sc_core::sc_time& delay) {
         shown_.clear();
         set_status(kStatusInReset, 0);
     }
+    set_status(0, kStatusFaulted);
+    resume_requested_.cancel();
     const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;
     stop_date_ = stop_ == Stop::None ? date : std::min(stop_date_, date);
     stop_ = stop_ == Stop::Reset ? stop_ : why;

@@ -12,10 +12,20 @@
 #include "tlm/urgent.hpp"
 
 namespace degs {
+namespace {
+
+/// Takes away the extensions of a transaction, which belong to a port and to the transaction.
+void drop_extensions(tlm::tlm_generic_payload& payload) {
+    payload.set_extension<TimingOnly>(nullptr);
+    payload.set_extension<Urgent>(nullptr);
+    payload.set_extension<RequestInfo>(nullptr);
+}
+
+} // namespace
 
 AtRequester::AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator_socket<>& out,
-                         const Limits& limits)
-    : sc_core::sc_module(name), out_(out), limits_(limits), answers_("answers") {
+                         const Limits& limits, StalledAccesses* stalled)
+    : sc_core::sc_module(name), out_(out), limits_(limits), stalled_(stalled), answers_("answers") {
     if (limits.all == 0 || limits.per_rank == 0) {
         throw std::invalid_argument(std::string(this->name()) +
                                     ": outstanding transactions must be at least 1");
@@ -32,8 +42,7 @@ AtRequester::AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator
 // Transactions that are still in flight then must not free the extensions of a port.
 AtRequester::~AtRequester() {
     for (const auto& transaction : transactions_) {
-        transaction->set_extension<TimingOnly>(nullptr);
-        transaction->set_extension<Urgent>(nullptr);
+        drop_extensions(*transaction);
     }
 }
 
@@ -129,16 +138,21 @@ AtRequester::Transaction& AtRequester::make(const Payload& access, unsigned char
     part.acquire();
     part.sequence = sequence_++;
     part.by_phase = part.answered = false;
+    part.piece = piece;
+    part.data = data;
     part.set_command(access.get_command());
     part.burst.open(part, piece, data);
     part.set_extension(access.get_extension<TimingOnly>());
     part.set_extension(access.get_extension<Urgent>());
+    if (const auto* const info = access.get_extension<RequestInfo>()) {
+        part.info.copy_from(*info);
+        part.set_extension(&part.info);
+    }
     return part;
 }
 
 void AtRequester::free(Payload* payload) {
-    payload->set_extension<TimingOnly>(nullptr); // the port's
-    payload->set_extension<Urgent>(nullptr);
+    drop_extensions(*payload);
     payload->reset();
     free_.push_back(static_cast<Transaction*>(payload));
 }
@@ -148,6 +162,32 @@ void AtRequester::end_part(Transaction& transaction) {
     if (--transaction.access->left == 0) {
         end(*transaction.access);
     }
+}
+
+void AtRequester::stall(Transaction& transaction) {
+    stalled_->add({transaction.piece.address - transaction.piece.lead, transaction.info.stream,
+                   transaction.get_response_status()},
+                  [this, &transaction] { resume_part(transaction); });
+}
+
+// Sends another transaction in the place of a refused one, which its target may still hold. It goes
+// before all others of its rank, which are younger.
+void AtRequester::resume_part(Transaction& refused) {
+    if (detached_) {
+        refused.set_response_status(tlm::TLM_OK_RESPONSE);
+        end_part(refused);
+        return;
+    }
+    Transaction& part = make(refused, refused.data, refused.piece);
+    part.access = refused.access;
+    part.date = refused.date;
+    part.rank = refused.rank;
+    auto& parts = part.access->parts;
+    *std::find(parts.begin(), parts.end(), &refused) = &part;
+    refused.burst.close(refused);
+    refused.release();
+    queues_[part.rank].waiting.push_front(&part);
+    send();
 }
 
 void AtRequester::detach() {
@@ -255,7 +295,11 @@ void AtRequester::finish() {
         }
         --under_way_;
         --queues_[transaction->rank].under_way;
-        end_part(*transaction); // which may give it back
+        if (stalled_ != nullptr && !detached_ && transaction->is_response_error()) {
+            stall(*transaction);
+        } else {
+            end_part(*transaction); // which may give it back
+        }
     }
     send();
 }

@@ -11,7 +11,9 @@
 #include <tlm>
 #include <tlm_utils/peq_with_get.h>
 
+#include "degs/request_info.hpp"
 #include "platform/full_burst.hpp"
+#include "platform/stalled_accesses.hpp"
 
 namespace degs {
 
@@ -36,10 +38,11 @@ public:
         unsigned per_rank = ~0U;
     };
 
-    /// Sends through `out`, whose nb_transport_bw() must call backward(). Throws
-    /// std::invalid_argument if a limit is 0.
+    /// Sends through `out`, whose nb_transport_bw() must call backward(). Transactions that are
+    /// refused wait in `stalled`; without it they are done. Throws std::invalid_argument if a limit
+    /// is 0.
     AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator_socket<>& out,
-                const Limits& limits);
+                const Limits& limits, StalledAccesses* stalled = nullptr);
     ~AtRequester() override;
 
     /// Must be called from a thread, as b_transport(); returns when all pieces are answered. The
@@ -79,6 +82,9 @@ private:
         bool by_phase = false; // answered with BEGIN_RESP, so END_RESP is due
         bool answered = false;
         FullBurst burst;
+        RequestInfo info; // of the access, for as long as a target holds the transaction
+        Piece piece;
+        unsigned char* data = nullptr; // of the access
     };
     struct Queue { // of a rank, in the order of dates
         std::deque<Transaction*> waiting;
@@ -93,6 +99,8 @@ private:
     Transaction& make(const Payload& access, unsigned char* data, const Piece& piece);
     void free(Payload* payload) override;
     void end_part(Transaction& transaction);
+    void stall(Transaction& transaction);
+    void resume_part(Transaction& refused);
     void send();
     void request(Transaction& transaction);
     void take(Transaction& transaction, const tlm::tlm_phase& phase, const sc_core::sc_time& delay);
@@ -103,6 +111,7 @@ private:
 
     tlm::tlm_initiator_socket<>& out_;
     Limits limits_;
+    StalledAccesses* stalled_;
     bool detached_ = false;
     sc_core::sc_event detaches_;
     unsigned under_way_ = 0, most_under_way_ = 0;

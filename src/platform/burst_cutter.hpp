@@ -20,12 +20,11 @@ struct AccessPiece {
     unsigned int length() const { return lead + bytes + tail; }
 };
 
-/// The pieces of an access: one per run of bytes that it moves, see Scattered. With `burst_bytes` >
-/// 0, a power of two, every run is cut into naturally aligned pieces of a power of two: whole
-/// bursts, and smaller ones where a run begins or ends inside of one, unless `ends` says that their
-/// transactions are whole bursts, too.
+/// The pieces of an access: one per run of bytes that it moves, see Scattered. With `burst_bytes`
+/// every run is cut into naturally aligned pieces of a power of two: whole bursts, and smaller ones
+/// where a run begins or ends inside of one, unless `burst_ends` says that their transactions are
+/// whole bursts, too. With `boundary_bytes` no transaction crosses a multiple of it.
 std::vector<AccessPiece> cut_into_bursts(const tlm::tlm_generic_payload& access,
-                                         std::uint64_t burst_bytes,
-                                         BurstEnds ends = BurstEnds::Pieces);
+                                         const AcceleratorOptions::Memory& options);
 
 } // namespace degs

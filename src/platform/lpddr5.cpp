@@ -4,14 +4,44 @@
 #include <stdexcept>
 
 #include "config/config_source.hpp"
+#include "config/config_words.hpp"
 #include "degs/error.hpp"
 #include "dram/lpddr5.hpp"
+#include "stats/statistics_document.hpp"
 
 namespace degs {
 
 namespace {
 
 constexpr std::size_t kMostInitiators = 1024;
+
+/// The counts and real numbers of a description.
+std::vector<Lpddr5::Statistic> numbers(const DescribeStats& describe) {
+    std::vector<Lpddr5::Statistic> all;
+    for (const Statistic& row : list_statistics(describe)) {
+        if (const auto* const count = std::get_if<std::uint64_t>(&row.value)) {
+            all.push_back({row.path, row.unit, row.sentence, static_cast<double>(*count)});
+        } else if (const auto* const real = std::get_if<double>(&row.value)) {
+            all.push_back({row.path, row.unit, row.sentence, *real});
+        }
+    }
+    return all;
+}
+
+double value_of(const std::string& name, const std::vector<Lpddr5::Statistic>& all,
+                const std::string& owner) {
+    std::vector<std::string> names;
+    for (const Lpddr5::Statistic& each : all) {
+        if (each.name == name) {
+            return each.value;
+        }
+        names.push_back(each.name);
+    }
+    const std::string near = config_words::nearest(name, names);
+    throw InputError(owner + ": there is no statistic " + config_words::quote(name) +
+                     (near.empty() ? "; statistics() lists them."
+                                   : ", did you mean " + config_words::quote(near) + "?"));
+}
 
 } // namespace
 
@@ -57,12 +87,22 @@ double Lpddr5::peak_gb_per_s() const {
     return peak_gb_per_s_;
 }
 
-std::uint64_t Lpddr5::bytes_read(std::size_t initiator) const {
-    return model_->stats(checked(initiator)).bytes_read;
+std::vector<Lpddr5::Statistic> Lpddr5::statistics() {
+    return numbers([this](StatsVisitor& v) { model_->describe(v); });
 }
 
-std::uint64_t Lpddr5::bytes_written(std::size_t initiator) const {
-    return model_->stats(checked(initiator)).bytes_written;
+std::vector<Lpddr5::Statistic> Lpddr5::statistics(std::size_t initiator) const {
+    checked(initiator);
+    return numbers([this, initiator](StatsVisitor& v) { model_->describe(initiator, v); });
+}
+
+double Lpddr5::statistic(const std::string& name) {
+    return value_of(name, statistics(), this->name());
+}
+
+double Lpddr5::statistic(const std::string& name, std::size_t initiator) const {
+    return value_of(name, statistics(initiator),
+                    this->name() + (" of initiator " + std::to_string(initiator)));
 }
 
 } // namespace degs

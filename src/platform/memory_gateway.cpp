@@ -10,6 +10,32 @@
 
 namespace degs {
 
+namespace {
+
+bool is_power_of_two_from_4(std::uint64_t value) {
+    return value >= 4 && (value & (value - 1)) == 0;
+}
+
+/// Gives a payload its RequestInfo, and takes it away before the payload frees it.
+class Informed {
+public:
+    Informed(tlm::tlm_generic_payload& payload, RequestStream stream, std::uint32_t qos)
+        : payload_(payload) {
+        info_.stream = stream;
+        info_.qos = qos;
+        payload_.set_extension(&info_);
+    }
+    Informed(const Informed&) = delete;
+    Informed& operator=(const Informed&) = delete;
+    ~Informed() { payload_.clear_extension(&info_); }
+
+private:
+    tlm::tlm_generic_payload& payload_;
+    RequestInfo info_;
+};
+
+} // namespace
+
 MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name)
     : MemoryGateway(name, Options()) {}
 
@@ -24,16 +50,31 @@ MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options&
     if (options.transport == Transport::At) {
         requester_ = std::make_unique<AtRequester>(
             "requester", out,
-            AtRequester::Limits{options.outstanding, options.outstanding_per_stream});
+            AtRequester::Limits{options.outstanding, options.outstanding_per_stream},
+            options.faults == RefusedAccess::Stall ? &stalled_ : nullptr);
         out.register_nb_transport_bw(this, &MemoryGateway::backward);
     }
 }
 
 std::string MemoryGateway::problem(const Options& options) {
     const std::uint64_t burst = options.burst_bytes;
-    if (burst != 0 && (burst < 4 || (burst & (burst - 1)) != 0)) {
+    const std::uint64_t boundary = options.boundary_bytes;
+    if (burst != 0 && !is_power_of_two_from_4(burst)) {
         return "memory.burst_bytes is " + std::to_string(burst) +
                ", but must be a power of two from 4 on, or 0";
+    }
+    if (boundary != 0 && !is_power_of_two_from_4(boundary)) {
+        return "memory.boundary_bytes is " + std::to_string(boundary) +
+               ", but must be a power of two from 4 on, or 0";
+    }
+    if (options.burst_ends == BurstEnds::FullBursts && boundary != 0 && boundary < burst) {
+        return "memory.burst_ends are full bursts of " + std::to_string(burst) +
+               " bytes, which cross the multiples of memory.boundary_bytes, " +
+               std::to_string(boundary);
+    }
+    if (options.qos > AcceleratorOptions::kMostQos) {
+        return "memory.qos is " + std::to_string(options.qos) + ", but must be at most " +
+               std::to_string(AcceleratorOptions::kMostQos);
     }
     if (burst == 0 && options.burst_ends == BurstEnds::FullBursts) {
         return "memory.burst_ends are full bursts, but memory.burst_bytes is 0, which cuts no "
@@ -59,6 +100,7 @@ void MemoryGateway::connect(const std::vector<MemoryStream>& streams) {
         in_[tag].register_b_transport(this, &MemoryGateway::serve, tag);
         in_[tag].register_transport_dbg(this, &MemoryGateway::debug_of, tag);
         stream.port->out.bind(in_[tag++]);
+        streams_.push_back(request_stream(stream.kind.name));
         of_scene_.push_back(scene_ && stream.kind.data == StreamData::Scene);
         if (of_scene_.back()) {
             stream.port->observe_reads(scene_);
@@ -80,14 +122,16 @@ tlm::tlm_sync_enum MemoryGateway::backward(tlm::tlm_generic_payload& payload, tl
 }
 
 void MemoryGateway::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+    const Informed informed(payload, RequestStream::SceneLoad, options_.qos);
     access(static_cast<unsigned>(traffic_.size()), payload, delay);
 }
 
 void MemoryGateway::serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
     pacer_.await_turn(static_cast<unsigned>(port), delay);
+    const Informed informed(payload, streams_[port], options_.qos);
     MemoryTraffic& traffic = traffic_[port];
     (payload.is_read() ? traffic.reads : traffic.writes)++;
-    (payload.is_read() ? traffic.bytes_read : traffic.bytes_written) += payload.get_data_length();
+    (payload.is_read() ? traffic.bytes_read : traffic.bytes_written) += bus_bytes(payload);
     auto* const late = payload.get_extension<MayAnswerLate>();
     if (requester_ && late != nullptr && !detached_) {
         late->answer = start(port, payload);
@@ -135,12 +179,31 @@ void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload,
     ++under_way_;
     if (requester_) {
         requester_->transport(rank, payload, cut(payload), delay);
-    } else if (options_.burst_bytes == 0 && payload.get_extension<Scattered>() == nullptr) {
-        out->b_transport(payload, delay);
+    } else if (is_one_transaction(payload)) {
+        send(rank, payload, delay);
     } else {
         access_pieces(rank, payload, cut(payload), delay);
     }
     end_access(delay);
+}
+
+// Bytes of the transactions that an access becomes.
+std::uint64_t MemoryGateway::bus_bytes(const tlm::tlm_generic_payload& access) const {
+    if (options_.burst_ends == BurstEnds::Pieces) {
+        return access.get_data_length();
+    }
+    std::uint64_t bytes = 0;
+    for (const AccessPiece& piece : cut(access)) {
+        bytes += piece.length();
+    }
+    return bytes;
+}
+
+bool MemoryGateway::is_one_transaction(const tlm::tlm_generic_payload& access) const {
+    const std::uint64_t boundary = options_.boundary_bytes;
+    return options_.burst_bytes == 0 && access.get_extension<Scattered>() == nullptr &&
+           (boundary == 0 ||
+            access.get_address() % boundary + access.get_data_length() <= boundary);
 }
 
 void MemoryGateway::end_access(const sc_core::sc_time& delay) {
@@ -156,6 +219,7 @@ void MemoryGateway::detach() {
     if (requester_) {
         requester_->detach();
     }
+    stalled_.drop();
 }
 
 void MemoryGateway::attach() {
@@ -164,6 +228,52 @@ void MemoryGateway::attach() {
     if (requester_) {
         requester_->attach();
     }
+}
+
+// Sends an LT transaction, and once more whenever software has resumed it.
+void MemoryGateway::send(unsigned rank, tlm::tlm_generic_payload& payload,
+                         sc_core::sc_time& delay) {
+    const std::uint64_t address = payload.get_address();
+    out->b_transport(payload, delay);
+    payload.set_address(address); // which an interconnect may have changed
+    while (options_.faults == RefusedAccess::Stall && payload.is_response_error()) {
+        const bool resumed = await_resume(payload, delay);
+        delay = sc_core::SC_ZERO_TIME;
+        if (resumed) {
+            pacer_.await_turn(rank, delay);
+        }
+        if (!resumed || detached_) {
+            payload.set_response_status(tlm::TLM_OK_RESPONSE);
+            return;
+        }
+        payload.set_dmi_allowed(false);
+        payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+        out->b_transport(payload, delay);
+        payload.set_address(address);
+    }
+}
+
+// A transaction has faulted when its answer comes. False if the frame is given up.
+bool MemoryGateway::await_resume(const tlm::tlm_generic_payload& refused,
+                                 const sc_core::sc_time& delay) {
+    if (delay > sc_core::SC_ZERO_TIME) {
+        sc_core::wait(delay);
+    }
+    if (detached_) {
+        return false;
+    }
+    bool again = false;
+    sc_core::sc_event resumes;
+    stalled_.add({refused.get_address(), refused.get_extension<RequestInfo>()->stream,
+                  refused.get_response_status()},
+                 [&again, &resumes] {
+                     again = true;
+                     resumes.notify(sc_core::SC_ZERO_TIME);
+                 });
+    while (!again) {
+        sc_core::wait(resumes);
+    }
+    return !detached_;
 }
 
 /// Waits until one more transaction may go out, for one that is dated `date`, as far as the pacing
@@ -202,7 +312,7 @@ void MemoryGateway::access_pieces(unsigned rank, tlm::tlm_generic_payload& paylo
         }
         sc_core::sc_time wait = await_room(rank, date) - sc_core::sc_time_stamp();
         burst.open(payload, piece, data);
-        out->b_transport(payload, wait);
+        send(rank, payload, wait);
         burst.close(payload);
         const sc_core::sc_time end = sc_core::sc_time_stamp() + wait;
         if (in_flight_.bounded()) {

@@ -12,19 +12,22 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include "degs/options.hpp"
+#include "degs/request_info.hpp"
 #include "modules/kit/memory/main_memory.hpp"
 #include "platform/access_pacer.hpp"
 #include "platform/at_requester.hpp"
 #include "platform/burst_cutter.hpp"
 #include "platform/in_flight.hpp"
+#include "platform/stalled_accesses.hpp"
 
 namespace degs {
 
 /// Sends all streams of an accelerator through one TLM-2.0 initiator socket, for memory that
 /// belongs to a platform: every access moves real bytes, and the platform arbitrates. Scattered
-/// records go out as ordinary transactions at their own addresses, one per run of bytes. An access
-/// that the platform refuses is counted as an error and then treated as done: an accelerator ends
-/// its frame and reports the error in a register, and the simulation goes on.
+/// records go out as ordinary transactions at their own addresses, one per run of bytes. Every
+/// transaction carries its RequestInfo. An access that the platform refuses is counted as an error
+/// and then treated as done: an accelerator ends its frame and reports the error in a register, and
+/// the simulation goes on. With RefusedAccess::Stall the transaction waits in stalled() instead.
 class MemoryGateway : public sc_core::sc_module, public MainMemory {
 public:
     using Options = AcceleratorOptions::Memory;
@@ -68,6 +71,9 @@ public:
         first_error_ = tlm::TLM_OK_RESPONSE;
     }
 
+    /// Refused transactions that wait; none unless the options say so.
+    StalledAccesses& stalled() { return stalled_; }
+
     /// Stops touching the platform's memory. Transactions that are on the bus end in their own
     /// time; every other access is answered at once, as if it had been done, until attach().
     void detach();
@@ -83,8 +89,10 @@ public:
 private:
     using Pieces = std::vector<AccessPiece>;
     Pieces cut(const tlm::tlm_generic_payload& access) const {
-        return cut_into_bursts(access, options_.burst_bytes, options_.burst_ends);
+        return cut_into_bursts(access, options_);
     }
+    std::uint64_t bus_bytes(const tlm::tlm_generic_payload& access) const;
+    bool is_one_transaction(const tlm::tlm_generic_payload& access) const;
     void serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     void access(unsigned rank, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     std::shared_ptr<LateAnswer> start(int port, const tlm::tlm_generic_payload& payload);
@@ -93,6 +101,8 @@ private:
     tlm::tlm_sync_enum backward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                 sc_core::sc_time& delay);
     unsigned int debug_of(int port, tlm::tlm_generic_payload& payload);
+    void send(unsigned rank, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+    bool await_resume(const tlm::tlm_generic_payload& refused, const sc_core::sc_time& delay);
     void access_pieces(unsigned rank, tlm::tlm_generic_payload& payload, const Pieces& pieces,
                        sc_core::sc_time& delay);
     sc_core::sc_time await_room(unsigned rank, const sc_core::sc_time& date);
@@ -102,9 +112,11 @@ private:
     ClockDomain clock_;
     AccessPacer pacer_;
     InFlight in_flight_; // LT
+    StalledAccesses stalled_;
     std::unique_ptr<AtRequester> requester_;
     std::vector<MemoryTraffic> traffic_;
-    std::vector<bool> of_scene_; // by stream
+    std::vector<bool> of_scene_;         // by stream
+    std::vector<RequestStream> streams_; // likewise
     Observer scene_;
     bool detached_ = false;
     unsigned under_way_ = 0;

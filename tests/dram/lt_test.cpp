@@ -211,9 +211,9 @@ TEST(HostileLpddr5, AnswersMistakesWithErrors) {
         EXPECT_EQ(bench.lt[0]->debug(tlm::TLM_READ_COMMAND, capacity, data, 64), 0U);
 
         tlm::tlm_generic_payload payload;
-        unsigned char enable[64] = {};
+        unsigned char enable = TLM_BYTE_ENABLED; // of an array without length
         test::Initiator::fill(payload, tlm::TLM_READ_COMMAND, 0, data, 64);
-        payload.set_byte_enable_ptr(enable);
+        payload.set_byte_enable_ptr(&enable);
         sc_time delay;
         bench.lt[0]->out->b_transport(payload, delay);
         EXPECT_EQ(payload.get_response_status(), tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);

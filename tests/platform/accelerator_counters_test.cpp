@@ -50,7 +50,7 @@ TEST(SmallRunCounters, RegistersOfBitsKeepNoReservedBit) {
     Platform platform("accelerator", DegsConfig(), test_cloud());
     platform.host.script = [&](Host& host) {
         host.write(Register::IrqEnable, ~0U);
-        EXPECT_EQ(host.read(Register::IrqEnable), kIrqDone | kIrqError | kIrqAborted);
+        EXPECT_EQ(host.read(Register::IrqEnable), kIrqDone | kIrqError | kIrqAborted | kIrqFault);
         std::uint32_t word = ~0U;
         tlm::tlm_generic_payload payload;
         payload.set_write();
@@ -58,7 +58,7 @@ TEST(SmallRunCounters, RegistersOfBitsKeepNoReservedBit) {
         payload.set_data_ptr(reinterpret_cast<unsigned char*>(&word));
         payload.set_data_length(4);
         EXPECT_EQ(host.out->transport_dbg(payload), 4U);
-        EXPECT_EQ(host.read(Register::IrqEnable), kIrqDone | kIrqError | kIrqAborted);
+        EXPECT_EQ(host.read(Register::IrqEnable), kIrqDone | kIrqError | kIrqAborted | kIrqFault);
     };
     sc_core::sc_start();
     EXPECT_TRUE(platform.host.finished);

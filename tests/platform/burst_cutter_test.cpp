@@ -7,11 +7,15 @@
 namespace degs::test {
 namespace {
 
-std::vector<AccessPiece> cut(std::uint64_t address, unsigned int bytes, std::uint64_t burst) {
+std::vector<AccessPiece> cut(std::uint64_t address, unsigned int bytes, std::uint64_t burst,
+                             std::uint64_t boundary = 0) {
     tlm::tlm_generic_payload payload;
     payload.set_address(address);
     payload.set_data_length(bytes);
-    return cut_into_bursts(payload, burst);
+    AcceleratorOptions::Memory options;
+    options.burst_bytes = burst;
+    options.boundary_bytes = boundary;
+    return cut_into_bursts(payload, options);
 }
 
 TEST(BurstCutter, CutsARunIntoWholeBurstsAndSmallerEnds) {
@@ -51,12 +55,45 @@ TEST(BurstCutter, PiecesFollowEachOtherAndAreAlignedWhateverTheAccess) {
     }
 }
 
-TEST(BurstCutter, BurstsOfOtherSizesAreRefused) {
-    MemoryGateway::Options options;
-    for (const std::uint64_t burst : {1, 2, 3, 48, 65}) {
-        options.burst_bytes = burst;
-        EXPECT_THROW(MemoryGateway("gateway", options), std::invalid_argument) << burst;
+// With any size of bursts; without one a piece ends at a boundary or with its run.
+TEST(BurstCutter, NoPieceCrossesABoundary) {
+    std::mt19937 random(5);
+    for (int i = 0; i < 2000; ++i) {
+        const std::uint64_t address = random() % 100000;
+        const auto bytes = static_cast<unsigned int>(1 + random() % 20000);
+        const std::uint64_t burst = random() % 2 == 0 ? 0 : std::uint64_t{4} << random() % 12;
+        const std::uint64_t boundary = std::uint64_t{4} << random() % 12;
+        std::uint64_t next = address;
+        for (const AccessPiece& piece : cut(address, bytes, burst, boundary)) {
+            const std::uint64_t end = piece.address + piece.bytes;
+            EXPECT_EQ(piece.address, next);
+            EXPECT_EQ(piece.offset, next - address);
+            EXPECT_EQ(piece.address / boundary, (end - 1) / boundary);
+            EXPECT_TRUE(burst != 0 || end % boundary == 0 || end == address + bytes);
+            next = end;
+        }
+        EXPECT_EQ(next, address + bytes);
     }
+}
+
+TEST(BurstCutter, BurstsAndBoundariesOfOtherSizesAreRefused) {
+    for (const std::uint64_t wrong : {1, 2, 3, 48, 65}) {
+        for (auto key :
+             {&MemoryGateway::Options::burst_bytes, &MemoryGateway::Options::boundary_bytes}) {
+            MemoryGateway::Options options;
+            options.*key = wrong;
+            EXPECT_THROW(MemoryGateway("gateway", options), std::invalid_argument) << wrong;
+        }
+    }
+    MemoryGateway::Options options;
+    options.burst_bytes = 64;
+    options.burst_ends = BurstEnds::FullBursts;
+    options.boundary_bytes = 32;
+    EXPECT_NE(MemoryGateway::problem(options), "");
+    options.boundary_bytes = 64;
+    EXPECT_EQ(MemoryGateway::problem(options), "");
+    options.qos = 16;
+    EXPECT_NE(MemoryGateway::problem(options), "");
 }
 
 } // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver in C: its header against the model, and a frame through its two functions.
-#include "degs/degs_driver.h"
+#include "degs/request_info.hpp"
 #include "modules/degs/config.hpp"
+#include "tests/platform/driver_device.hpp"
 #include "tests/platform/views_bench.hpp"
 
 namespace degs::test {
@@ -61,6 +62,9 @@ TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
         {DEGS_REG_VIEW_HEIGHT, R::ViewHeight},
         {DEGS_REG_VIEW_X, R::ViewX},
         {DEGS_REG_VIEW_Y, R::ViewY},
+        {DEGS_REG_FAULT_ADDRESS, R::FaultAddress},
+        {DEGS_REG_FAULT_STREAM, R::FaultStream},
+        {DEGS_REG_FAULT_ANSWER, R::FaultAnswer},
         {DEGS_REG_VIEW_SHOWN, R::ViewShown},
         {DEGS_REG_VIEW_ENTRY, R::ViewEntry},
     };
@@ -78,6 +82,11 @@ TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
     EXPECT_EQ(DEGS_STATUS_BUSY, kStatusBusy);
     EXPECT_EQ(DEGS_STATUS_DONE, kStatusDone);
     EXPECT_EQ(DEGS_IRQ_STATUS_ERROR, kIrqError);
+    EXPECT_EQ(DEGS_CONTROL_RESUME, kControlResume);
+    EXPECT_EQ(DEGS_STATUS_FAULTED, kStatusFaulted);
+    EXPECT_EQ(DEGS_IRQ_STATUS_FAULT, kIrqFault);
+    EXPECT_EQ(DEGS_FAULT_STREAM_FRAME_BUFFER,
+              static_cast<std::uint32_t>(RequestStream::FrameBuffer));
     EXPECT_EQ(DEGS_ERROR_CODE_OUT_OF_MEMORY,
               static_cast<std::uint32_t>(AcceleratorError::OutOfMemory));
 }
@@ -126,16 +135,6 @@ TEST(Driver, FieldsOfItsEntriesAreThoseOfTheModel) {
     EXPECT_EQ(kViewBytes % kBaseAlignment, 0U);
     EXPECT_EQ(DEGS_MOST_VIEWS, kMostViews);
     EXPECT_EQ(DEGS_LENS_FISHEYE, static_cast<std::uint32_t>(LensKind::Fisheye));
-}
-
-degs_device device_of(Host& host) {
-    return {&host,
-            [](void* to, std::uint32_t offset) {
-                return static_cast<Host*>(to)->read(static_cast<Register>(offset));
-            },
-            [](void* to, std::uint32_t offset, std::uint32_t value) {
-                static_cast<Host*>(to)->write(static_cast<Register>(offset), value);
-            }};
 }
 
 TEST(SmallRunDriver, RendersTheFrameOfTheRegistersAndReportsErrors) {

@@ -21,8 +21,12 @@ TEST(FullBursts, CoverEveryAccessOnce) {
         payload.set_address(random() % 1000);
         payload.set_data_length(static_cast<unsigned int>(1 + random() % 700));
         const unsigned int burst = 4U << random() % 8;
+        AcceleratorOptions::Memory options;
+        options.burst_bytes = burst;
+        options.burst_ends = BurstEnds::FullBursts;
+        options.boundary_bytes = std::uint64_t{burst} << random() % 3;
         std::uint64_t next = payload.get_address();
-        for (const AccessPiece& piece : cut_into_bursts(payload, burst, BurstEnds::FullBursts)) {
+        for (const AccessPiece& piece : cut_into_bursts(payload, options)) {
             EXPECT_EQ(piece.address, next);
             EXPECT_EQ(piece.offset, next - payload.get_address());
             EXPECT_EQ((piece.address - piece.lead) % burst, 0U);

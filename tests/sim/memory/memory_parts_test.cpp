@@ -2,10 +2,12 @@
 // The parts of degs memory without a simulation: traffic, traces and derived numbers.
 #include <gtest/gtest.h>
 
+#include "degs/lpddr5.hpp"
 #include "sim/memory/memory_pattern.hpp"
 #include "sim/memory/memory_report.hpp"
 #include "sim/memory/memory_traffic.hpp"
 #include "sim/memory/trace_reader.hpp"
+#include "stats/statistics_document.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -23,6 +25,22 @@ TEST(MemoryReport, EnergyIsPerBitAndPowerPerSecond) {
     EXPECT_DOUBLE_EQ(written["energy"]["pj_per_bit"].get<double>(), 1);
     EXPECT_DOUBLE_EQ(written["energy"]["mean_power_w"].get<double>(), 2);
     EXPECT_DOUBLE_EQ(written["bandwidth_gb_per_s"].get<double>(), 250);
+}
+
+// Platforms read by name what memory.json reports, but for what only a measurement has.
+TEST(MemoryReport, HasTheNamesOfTheMemoryOfPlatforms) {
+    degs::Lpddr5 memory("memory", "", 1);
+    std::size_t found = 0;
+    for (const Statistic& row :
+         document_statistics([](StatsVisitor& visitor) { describe(MemoryFacts(), visitor); })) {
+        const std::string section = row.path.substr(0, row.path.find('.'));
+        if (row.section || section == "traffic" || section == "curve" || section == "host") {
+            continue;
+        }
+        EXPECT_NO_THROW(memory.statistic(row.path)) << row.path;
+        ++found;
+    }
+    EXPECT_GT(found, 40U);
 }
 
 TEST(TraceReader, CutsRequestsWhereLinesEnd) {
