@@ -93,16 +93,19 @@ def memory(config: PathLike, *, pattern: Optional[str] = None, request_bytes: Op
 
 def soc(design: Union[Design, PathLike], scene: PathLike, *, camera: Optional[int] = None,
         camera_file: Optional[PathLike] = None, width: Optional[int] = None, height: Optional[int] = None,
-        resolution: Optional[str] = None, crop: Optional[str] = None, memory: Optional[PathLike] = None,
+        resolution: Optional[str] = None, crop: Optional[str] = None, eyes: Optional[float] = None,
+        units_per_metre: Optional[float] = None, views: Optional[Sequence[int]] = None,
+        foveation: Optional[str] = None, memory: Optional[PathLike] = None,
         load: Union[None, float, Sequence[float]] = None, cores: Optional[int] = None, pattern: Optional[str] = None,
         reads_per_write: Optional[int] = None, refresh: Optional[float] = None, trace: Optional[PathLike] = None,
         trace_step: Optional[int] = None, keys: Keys = None, out: Optional[PathLike] = None,
         **top_keys: Any) -> Report:
     """Runs a design on a platform whose cores and display use the memory as well, as `degs soc` does: the report is
-    soc.json, its table has a row for each load. Keys of the design are given as for degs.run()."""
+    soc.json, its table has a row for each load. Views of a frame and keys of the design are given as for degs.run()."""
     chosen = changed(design, keys, top_keys, soc)
     words = options_of(scene=scene, camera=camera, camera_file=camera_file, width=width, height=height,
-                       resolution=resolution, crop=crop, memory=None if memory is None else memory_file(memory),
+                       resolution=resolution, crop=crop, eyes=eyes, units_per_metre=units_per_metre,
+                       views=joined(views), foveation=foveation, memory=None if memory is None else memory_file(memory),
                        load=load, cores=cores, pattern=pattern, reads_per_write=reads_per_write, refresh=refresh,
                        trace=trace, trace_step=trace_step)
     with results(out) as folder:

@@ -94,8 +94,8 @@ void collect_recording(AcceleratorResult& result, RenderJob& job, std::vector<Ti
     }
 }
 
-/// Adds the FIFOs below a module whose cells neither a buffer of the results nor the costs of a unit
-/// stand for.
+/// Adds the FIFOs below a module whose cells neither a buffer of the results nor the costs of a
+/// unit stand for.
 void collect_unbilled(std::vector<std::string>& unbilled, const sc_core::sc_object& module) {
     for (const sc_core::sc_object* child : module.get_child_objects()) {
         const auto* fifo = dynamic_cast<const FifoBase*>(child);

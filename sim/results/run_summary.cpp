@@ -2,10 +2,12 @@
 #include "sim/results/run_summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/ratio.hpp"
 #include "modules/kit/accelerator/waiting_causes.hpp"
 #include "sim/results/message_fields.hpp"
+#include "sim/simulation/what_if.hpp"
 
 namespace degs::sim {
 namespace {
@@ -88,6 +90,25 @@ void set_warnings(const SceneFacts& scene, const std::vector<std::string>& warni
 }
 
 } // namespace
+
+std::optional<std::pair<double, double>> latency_ratio_interval(const RunNumbers& before,
+                                                                const RunNumbers& after) {
+    if (!before.cycles_low && !after.cycles_low) {
+        return {};
+    }
+    const double ratio = *after.measures[Measure::LatencyMs] / *before.measures[Measure::LatencyMs];
+    if (before.fidelity == "analytic" && after.fidelity == "analytic") {
+        // A change of many times its size is one of its logarithm.
+        const double width = change_half_width(std::log(ratio));
+        return std::pair(ratio * std::exp(-width), ratio * std::exp(width));
+    }
+    const double cycles = *after.measures[Measure::Cycles],
+                 other = *before.measures[Measure::Cycles];
+    const double clock = ratio * other / cycles; // of `before` over that of `after`
+    return std::pair(clock * after.cycles_low.value_or(cycles) / before.cycles_high.value_or(other),
+                     clock * after.cycles_high.value_or(cycles) /
+                         before.cycles_low.value_or(other));
+}
 
 std::vector<Statistic> part_statistics() {
     return {part_statistic("buffers.*.high_water", "cells",

@@ -42,6 +42,12 @@ struct RunNumbers {
     NamedNumbers parts;     ///< single buffers and blocks by their names, see part_statistics()
 };
 
+/// Between which the latency of `after` over that of `before` lies: at the worst ends of the
+/// intervals if one of them is a sample; that of a change between two estimates. Empty between
+/// exact runs.
+std::optional<std::pair<double, double>> latency_ratio_interval(const RunNumbers& before,
+                                                                const RunNumbers& after);
+
 /// One configuration on one view.
 struct RunSummary : RunNumbers {
     std::string accelerator;

@@ -8,8 +8,6 @@
 #include <set>
 #include <tuple>
 
-#include "sim/simulation/what_if.hpp"
-
 namespace degs::sim {
 namespace {
 
@@ -139,28 +137,12 @@ double gain_of(double ratio, const ComparisonRow& before, const ComparisonRow& a
 }
 
 Elasticity elasticity_between(const ComparisonRow& before, const ComparisonRow& after) {
-    const double ratio =
-        *after.measures[Measure::LatencyMs] / *before.measures[Measure::LatencyMs];
+    const double ratio = *after.measures[Measure::LatencyMs] / *before.measures[Measure::LatencyMs];
     Elasticity elasticity{gain_of(ratio, before, after)};
-    if (!before.cycles_low && !after.cycles_low) {
-        return elasticity;
+    if (const auto between = latency_ratio_interval(before, after)) {
+        elasticity.low = gain_of(between->second, before, after);
+        elasticity.high = gain_of(between->first, before, after);
     }
-    double least = 0, most = 0; // of the ratio
-    if (before.fidelity == "analytic" && after.fidelity == "analytic") {
-        // A change of many times its size is one of its logarithm.
-        const double width = change_half_width(std::log(ratio));
-        least = ratio * std::exp(-width);
-        most = ratio * std::exp(width);
-    } else {
-        const auto cycles = [](const ComparisonRow& row) { return *row.measures[Measure::Cycles]; };
-        const double clock = ratio * cycles(before) / cycles(after);
-        least = clock * after.cycles_low.value_or(cycles(after)) /
-                before.cycles_high.value_or(cycles(before));
-        most = clock * after.cycles_high.value_or(cycles(after)) /
-               before.cycles_low.value_or(cycles(before));
-    }
-    elasticity.low = gain_of(most, before, after);
-    elasticity.high = gain_of(least, before, after);
     return elasticity;
 }
 
@@ -169,8 +151,7 @@ std::optional<Elasticity> elasticity_at(const Comparison& comparison, const Memo
     if (i == 0 || i + 1 >= line.rows.size()) {
         return {};
     }
-    return elasticity_between(comparison.rows[line.rows[i - 1]],
-                              comparison.rows[line.rows[i + 1]]);
+    return elasticity_between(comparison.rows[line.rows[i - 1]], comparison.rows[line.rows[i + 1]]);
 }
 
 /// Empty where even the largest bandwidth gains more, or the smallest one no more.

@@ -31,7 +31,7 @@ struct Elasticity {
 /// Without any entry if the study does not vary the bandwidth, and empty in a line that has two
 /// latencies at one bandwidth, because it is no function of it.
 std::vector<std::optional<Elasticity>> elasticities(const StudyPlan& plan,
-                                                const Comparison& comparison);
+                                                    const Comparison& comparison);
 
 /// One point of a curve.
 struct BandwidthPoint {

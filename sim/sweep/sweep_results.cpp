@@ -48,9 +48,9 @@ struct MoreColumns {
             return "," + csv_number(value);
         };
         return cell(here ? std::optional(here->gain) : std::nullopt) +
-               (intervals ? cell(here ? here->low : std::nullopt) +
-                                cell(here ? here->high : std::nullopt)
-                          : "");
+               (intervals
+                    ? cell(here ? here->low : std::nullopt) + cell(here ? here->high : std::nullopt)
+                    : "");
     }
 };
 

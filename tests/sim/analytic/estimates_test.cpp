@@ -146,9 +146,8 @@ TEST(Estimates, HaveThePictureOfBandwidth) {
     EXPECT_EQ(rows[4].at("bandwidth_elasticity.low"), "");
     // Four times the bandwidth lie between the neighbours: the slope is that of two doublings, 30 %
     // and a point of latency wide to both sides.
-    const double doublings = std::log2(std::stod(rows[0].at("latency_ms")) /
-                                       std::stod(rows[2].at("latency_ms"))) /
-                             2;
+    const double doublings =
+        std::log2(std::stod(rows[0].at("latency_ms")) / std::stod(rows[2].at("latency_ms"))) / 2;
     const double width = 0.3 * doublings + 0.01 / (2 * std::log(2));
     const auto gain = [](double slope) { return 100 * (std::exp2(slope * std::log2(1.1)) - 1); };
     EXPECT_NEAR(std::stod(rows[1].at("bandwidth_elasticity")), gain(doublings), 1e-6);

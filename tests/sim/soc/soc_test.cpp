@@ -186,7 +186,7 @@ TEST(SmallRunSoc, FoveatedEyesAreThoseOfARun) {
         SCOPED_TRACE(design);
         std::vector<std::string> on_platform{"soc",  config(design), "--load",
                                              "0",    "40",           "--refresh",
-                                             "2000", "--out",        folder / "soc"};
+                                             "1000", "--out",        folder / "soc"};
         std::vector<std::string> alone{"run", config(design), "--no-cache", "--out",
                                        folder / "run"};
         on_platform.insert(on_platform.end(), frame.begin(), frame.end());

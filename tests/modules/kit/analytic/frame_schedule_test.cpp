@@ -75,13 +75,14 @@ TEST(FrameSchedule, EnginesAreGrantedTilesInTurn) {
         << "the next list of a sorter waits until the one before is with the dispatcher";
 }
 
-// Of 40 entries in runs of 10, one run waits in the FIFO and one in the sorter until the dispatcher
-// has taken the list before, at 2000; lists of one run are complete then.
+// The dispatcher takes the list before at 2000. Until then one run of the 40 entries waits in the
+// FIFO and one in the sorter; a list of two runs is complete at once.
 TEST(FrameSchedule, RunsWaitBehindACompleteList) {
     const std::vector<double> lists{1000, 40, 1, 40};
     EXPECT_EQ(end_of(SortingOnly(2, 2), lists), 2041);
     EXPECT_EQ(end_of(SortingOnly(2, 2, 10), lists), 2021);
-    EXPECT_EQ(end_of(SortingOnly(2, 2, 20), lists), 2002) << "the list of one entry, sorted at 2001";
+    EXPECT_EQ(end_of(SortingOnly(2, 2, 20), lists), 2002)
+        << "the list of one entry, sorted at 2001";
 }
 
 FrontEndLoad front_of(std::uint64_t capacity) {
