@@ -223,7 +223,8 @@ TEST_P(SmallRunBoundary, NoTransactionCrossesIt) {
 
 INSTANTIATE_TEST_SUITE_P(Both, SmallRunBoundary, ::testing::Values(Transport::Lt, Transport::At),
                          [](const ::testing::TestParamInfo<Transport>& which) {
-                             return which.param == Transport::Lt ? "Lt" : "At";
+                             return which.param == Transport::Lt ? "LooselyTimed"
+                                                                 : "ApproximatelyTimed";
                          });
 
 } // namespace
