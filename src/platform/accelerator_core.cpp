@@ -6,6 +6,7 @@
 
 #include "degs/error.hpp"
 #include "scene/cameras/eyes.hpp"
+#include "splat/frame/projection.hpp"
 #include "splat/frame/shared_colours.hpp"
 
 namespace degs {
@@ -193,10 +194,10 @@ AcceleratorFault AcceleratorCore::load() {
 
 // A lens that the design's projection cannot draw.
 AcceleratorFault AcceleratorCore::lens_fault(const ProjectionOptions& options) const {
-    const bool pinhole =
-        options.rule != ProjectionRule::Unscented && options.lens == LensRule::Camera;
     for (const DrawnView& view : drawn_) {
-        if (pinhole && !view.level.camera.lens.is_pinhole()) {
+        try {
+            check_projection(view.level.camera, options);
+        } catch (const InputError&) {
             return {AcceleratorError::BadCamera, detail_of_view(view.entry, ViewField::Lens)};
         }
     }

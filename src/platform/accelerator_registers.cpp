@@ -244,7 +244,7 @@ const std::vector<RegisterInfo>& register_map() {
     return map;
 }
 
-// Fields of the camera mean what the registers of their names do.
+// A field that has the name of a register has its meaning, too.
 const std::vector<ViewFieldInfo>& view_layout() {
     static const std::vector<ViewFieldInfo> layout = [] {
         std::vector<ViewFieldInfo> rows = entry_rows();
