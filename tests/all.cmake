@@ -92,5 +92,5 @@ if(DEGS_INSTALL)
                   ${PROJECT_BINARY_DIR} ${CMAKE_CXX_COMPILER} ${program})
     set(DEGS_OTHER_SYSTEMC "" CACHE PATH "Prefix of another SystemC, with which the accelerator is tested, too")
     degs_all_test(packaging/OtherSystemC COMMAND ${here}/packaging/systemc.sh ${PROJECT_BINARY_DIR} ${CMAKE_CXX_COMPILER}
-                  ENVIRONMENT DEGS_OTHER_SYSTEMC=${DEGS_OTHER_SYSTEMC})
+                  ${program} ENVIRONMENT DEGS_OTHER_SYSTEMC=${DEGS_OTHER_SYSTEMC})
 endif()

@@ -15,3 +15,16 @@ seconds() {
     awk -v t="$taken" -v l="$1" 'BEGIN { exit !(t <= l) }' || { echo "took $taken s of a processor: $2"; return 1; }
     echo "$taken"
 }
+# make_scene PROGRAM: $work/scene.ply, for the function below and the example platform.
+make_scene() { "$1" scene generate object --gaussians 2000 --out "$work/scene.ply" >"$work/generate.log"; }
+# image_of PROGRAM DESIGN: the checksum that `degs run` reports of that scene.
+image_of() {
+    "$1" run "$2" --scene "$work/scene.ply" --no-reference --out "$work/run" >"$work/run.log"
+    sed -n 's/.*"crc32": "\([0-9a-f]*\)".*/\1/p' "$work/run/report.json" | grep . ||
+        { echo "the report has no checksum" >&2; return 1; }
+}
+# example_draws PLATFORM DESIGN IMAGE: the example platform draws that image of that scene.
+example_draws() {
+    SYSTEMC_DISABLE_COPYRIGHT_MESSAGE=1 "$1" "$2" "$work/scene.ply" | tee "$work/said"
+    grep -q "image $3\$" "$work/said" || { echo "degs run renders the image $3"; return 1; }
+}

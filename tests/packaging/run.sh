@@ -35,12 +35,9 @@ else
 fi
 declare -A images # by design: a number set, and single precision
 if [[ $program ]]; then
-    "$program" scene generate object --gaussians 2000 --out "$work/scene.ply" >"$work/generate.log"
+    make_scene "$program"
     for design in degs-64 gscore-64; do
-        "$program" run "$work/prefix/share/degs/configs/$design.yaml" --scene "$work/scene.ply" --no-reference \
-            --out "$work/run" >"$work/run.log"
-        images[$design]=$(sed -n 's/.*"crc32": "\([0-9a-f]*\)".*/\1/p' "$work/run/report.json")
-        [[ ${images[$design]} ]] || { echo "the report has no checksum"; exit 1; }
+        images[$design]=$(image_of "$program" "$work/prefix/share/degs/configs/$design.yaml")
     done
 fi
 for each in "${compilers[@]}"; do
@@ -58,10 +55,7 @@ for each in "${compilers[@]}"; do
     "$work/$name-shadow/shadow" 2>/dev/null
     [[ $program ]] || continue
     for design in "${!images[@]}"; do
-        SYSTEMC_DISABLE_COPYRIGHT_MESSAGE=1 "$work/$name-platform/platform" \
-            "$work/prefix/share/degs/configs/$design.yaml" "$work/scene.ply" | tee "$work/said"
-        grep -q "image ${images[$design]}\$" "$work/said" ||
-            { echo "degs run renders the image ${images[$design]}"; exit 1; }
+        example_draws "$work/$name-platform/platform" "$work/prefix/share/degs/configs/$design.yaml" "${images[$design]}"
     done
 done
 echo 'accelerator: gpu' >"$work/wrong.yaml"
