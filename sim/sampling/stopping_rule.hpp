@@ -17,7 +17,7 @@ inline constexpr std::size_t kLeastGroups = 12;
 inline constexpr double kMostShare = 0.4;
 /// Above this share of the memory's peak, requests of other tiles hold up those of a tile: a sample
 /// has fewer of them, and at other dates. Measured: docs/sampling.md.
-inline constexpr double kMostMemoryUse = 0.3;
+inline constexpr double kMostMemoryUse = 0.25;
 /// A tile that follows another than its neighbour finds the pipeline in another state, which
 /// changes what is sampled by this share. Measured: docs/sampling.md.
 inline constexpr double kPipelineError = 0.003;
