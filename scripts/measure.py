@@ -7,6 +7,7 @@
     measure.py --list           names, places and what is measured already
     measure.py --check          is a table stale? Tries the cheapest point of each
     measure.py --quick          makes all with tiny views and writes nothing: the declarations work
+    measure.py --new-key KEY    a key was added that changes no result: records take it in, if they are right without it
 
 Tables are declared in scripts/tables. Results of single points are kept in out/measure and shared between tables;
 docs/tables.json records what each table depended on. measuring/scenes.py says where scenes are. The program is
@@ -198,6 +199,7 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--new-key", metavar="KEY")
     parser.add_argument("--jobs", type=int, default=2, help="points at a time (default: 2)")
     parser.add_argument("--folder", default=str(points.ROOT / "out/measure"), help="results (default: out/measure)")
     options = parser.parse_args()
@@ -205,6 +207,10 @@ def main():
     tables = chosen(everything, options.tables)
     if options.check:
         check(tables, everything, options.jobs)
+        return
+    if options.new_key:
+        others = records.take_in(tables, options.new_key)
+        print(f"{len(tables) - len(others)} records have {options.new_key}; as they were: {', '.join(others) or 'none'}")
         return
     if options.list:
         kept = records.read()["tables"]

@@ -185,14 +185,21 @@ def content(file):
 
 
 @functools.lru_cache(maxsize=None)
-def values_of(file, keys):
+def values_of(file, keys, without=""):
     """All keys of a design with their values, as the program resolves them; not what it says of their meaning."""
     changes = [word for key in keys for word in ("--set", key)]
-    return json.dumps(texts_of(call(["config", file, *changes, "--format", "yaml"], warn=False)), sort_keys=True)
+    values = texts_of(call(["config", file, *changes, "--format", "yaml"], warn=False))
+    *sections, name = without.split(".")
+    section = values
+    for each in sections:
+        section = section.get(each, {})
+    section.pop(name, None)
+    return json.dumps(values, sort_keys=True)
 
 
-def depends_on(point):
-    """Texts of all that the result depends on but the program: values of keys, the scene, and the words."""
+def depends_on(point, without=""):
+    """Texts of all that the result depends on but the program: values of keys, but for one of them, the scene, and the
+    words."""
     if point.scene:
         yield from map(content, files_of(point.scene))
     if "--path" in point.options:
@@ -204,7 +211,7 @@ def depends_on(point):
         for name in sorted(set(included(study)) - designs):
             yield json.dumps(yaml.safe_load((file.parent / name).read_text(encoding="utf-8")), sort_keys=True)
     for design in point.designs():
-        yield values_of(*design)
+        yield values_of(*design, without)
     for word in point.options:
         if word.startswith("configs/"):
             yield content(str(ROOT / word))

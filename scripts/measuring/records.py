@@ -20,9 +20,9 @@ def digest(texts):
     return hashlib.sha256("\n".join(sorted(set(texts))).encode()).hexdigest()[:16]
 
 
-def dependence(asked):
-    """Digest of all that the points of a table depend on but the program."""
-    return digest(text for point in asked for text in points.depends_on(point))
+def dependence(asked, without=""):
+    """Digest of all that the points of a table depend on but the program, and but for a key."""
+    return digest(text for point in asked for text in points.depends_on(point, without))
 
 
 def read():
@@ -64,6 +64,19 @@ def add(table, asked, results):
     kept["tables"][table.name] = {"place": table.place, "depends": dependence(asked), "text": digest([table.text()]),
                                   "probe": name}
     write(kept)
+
+
+def take_in(tables, key):
+    """A key was added with which nothing else changes: records that are right without it have it from now on. Returns
+    the names of the others. Whether results are what they were, the probes say."""
+    kept, others = read(), []
+    for name, entry in kept["tables"].items():
+        if name in tables and dependence(tables[name].points(), key) == entry["depends"]:
+            entry["depends"] = dependence(tables[name].points())
+        else:
+            others.append(name)
+    write(kept)
+    return others
 
 
 def differences(probe):

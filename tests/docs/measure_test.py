@@ -135,6 +135,21 @@ class Measure(unittest.TestCase):
         self.assertEqual(len(self.stale()), 2)
         self.assertIn("values of their keys", self.stale()[0])
 
+    def test_a_new_key_is_taken_in_where_nothing_else_changed(self):
+        self.make()
+        self.set("speed", "1\ndeep: {inner: {fresh: 7}}")
+        self.assertEqual(len(self.stale()), 2)
+        self.points.values_of.cache_clear()
+        self.assertEqual(self.records.take_in(self.all, "deep.inner.other"), ["double", "later"])
+        self.assertEqual(len(self.stale()), 2)
+        self.set("speed", "1\nfresh: 7")
+        self.points.values_of.cache_clear()
+        self.assertEqual(self.records.take_in(self.all, "fresh"), [])
+        self.assertEqual(self.stale(), [])
+        self.set("speed", "2\nfresh: 7\nsecond: 8")
+        self.points.values_of.cache_clear()
+        self.assertEqual(self.records.take_in(self.all, "second"), ["double", "later"])
+
     def test_a_probe_that_changed_stays_so_for_tables_that_were_not_measured_again(self):
         @self.tables.table("docs/second.csv")
         def second():
