@@ -47,8 +47,6 @@ struct AcceleratorOptions {
     /// The largest limit on the Gaussians of a scene, whose geometry then takes 44 GiB. Indices
     /// have 32 bits.
     static constexpr std::uint32_t kMostGaussians = 1U << 30U;
-    /// The largest Memory::qos.
-    static constexpr unsigned kMostQos = 15;
 
     struct Limits {
         std::uint32_t gaussians = kMostGaussians; ///< of a scene, at least 1
@@ -70,7 +68,7 @@ struct AcceleratorOptions {
         /// B; no transaction crosses a multiple of this, a power of two from 4 on, such as the 4096
         /// of AMBA AXI. 0: `burst_bytes` alone decides. FullBursts: at least `burst_bytes`.
         std::uint64_t boundary_bytes = 0;
-        unsigned qos = 0; ///< 0 to 15, see RequestInfo
+        unsigned qos = 0; ///< 0 to RequestInfo::kMostQos
         RefusedAccess faults = RefusedAccess::End;
         Pacing pacing = Pacing::Exact; ///< AT is exact
     };

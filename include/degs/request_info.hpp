@@ -36,8 +36,12 @@ RequestStream request_stream(const char* name);
 /// the call returns, in four phases until the last reference is released. A target that needs it
 /// longer makes a clone().
 struct RequestInfo : tlm::tlm_extension<RequestInfo> {
+    static constexpr std::uint32_t kMostQos = 15;
+
     RequestStream stream = RequestStream::Other;
-    std::uint32_t qos = 0; ///< 0 to 15 as AxQOS of AMBA AXI: AcceleratorOptions::Memory::qos
+    /// 0 to kMostQos as AxQOS of AMBA AXI: AcceleratorOptions::Memory::qos. Lpddr5 lets reads of a
+    /// higher level into its queues before others.
+    std::uint32_t qos = 0;
 
     tlm::tlm_extension_base* clone() const override {
         auto* const copy = new RequestInfo;

@@ -96,18 +96,24 @@ def soc(design: Union[Design, PathLike], scene: PathLike, *, camera: Optional[in
         resolution: Optional[str] = None, crop: Optional[str] = None, eyes: Optional[float] = None,
         units_per_metre: Optional[float] = None, views: Optional[Sequence[int]] = None,
         foveation: Optional[str] = None, memory: Optional[PathLike] = None,
+        accelerator: Sequence[PathLike] = (), rate: Union[None, float, Sequence[float]] = None,
+        qos: Union[None, int, Sequence[int]] = None, frames: Optional[int] = None, deadline: Optional[float] = None,
         load: Union[None, float, Sequence[float]] = None, cores: Optional[int] = None, pattern: Optional[str] = None,
+        cores_qos: Optional[int] = None, display_qos: Optional[int] = None,
         reads_per_write: Optional[int] = None, refresh: Optional[float] = None, trace: Optional[PathLike] = None,
         trace_step: Optional[int] = None, keys: Keys = None, out: Optional[PathLike] = None,
         **top_keys: Any) -> Report:
-    """Runs a design on a platform whose cores and display use the memory as well, as `degs soc` does: the report is
-    soc.json, its table has a row for each load. Views of a frame and keys of the design are given as for degs.run()."""
+    """Runs a design on a platform whose cores and display, and other accelerators, use the memory as well, as
+    `degs soc` does: the report is soc.json, its table has a row for each load and rate. Views of a frame and keys of
+    the design are given as for degs.run(); `accelerator` names or files of the others."""
     chosen = changed(design, keys, top_keys, soc)
     words = options_of(scene=scene, camera=camera, camera_file=camera_file, width=width, height=height,
                        resolution=resolution, crop=crop, eyes=eyes, units_per_metre=units_per_metre,
                        views=joined(views), foveation=foveation, memory=None if memory is None else memory_file(memory),
                        load=load, cores=cores, pattern=pattern, reads_per_write=reads_per_write, refresh=refresh,
-                       trace=trace, trace_step=trace_step)
+                       accelerator=[str(Design(other).file) for other in accelerator] or None, rate=rate, qos=qos, frames=frames,
+                       deadline=deadline, cores_qos=cores_qos, display_qos=display_qos, trace=trace,
+                       trace_step=trace_step)
     with results(out) as folder:
         printed = call(["soc", *chosen.arguments(), *words, "--out", str(folder)])
         values = document(folder, "soc.json")

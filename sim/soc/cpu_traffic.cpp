@@ -12,6 +12,7 @@ namespace degs::sim {
 CpuTraffic::CpuTraffic(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config), random_(config.seed),
       done_(config.lines_in_flight), line_(kLineBytes) {
+    info_.qos = config_.qos;
     DEGS_HAS_PROCESS(CpuTraffic);
     SC_THREAD(run);
 }
@@ -57,11 +58,13 @@ void CpuTraffic::move_line() {
     TimingOnly timing_only;
     tlm::tlm_generic_payload payload;
     payload.set_extension(&timing_only);
+    payload.set_extension(&info_);
     set_access(payload, write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND, next_address(),
                line_.data(), kLineBytes);
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
     out->b_transport(payload, delay);
     payload.clear_extension(&timing_only);
+    payload.clear_extension(&info_);
     oldest = sc_core::sc_time_stamp() + delay;
     bytes_moved_ += kLineBytes;
     errors_ += payload.is_response_error() ? 1 : 0;

@@ -9,6 +9,8 @@
 #include <tlm>
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include "degs/request_info.hpp"
+
 namespace degs::sim {
 
 /// Memory traffic of one processor core: cache lines at an even rate, as many in flight as its
@@ -23,6 +25,7 @@ public:
         int lines_in_flight = 32;              ///< misses that the caches allow
         std::uint64_t begin = 0, bytes = 1024; ///< memory that is touched
         unsigned seed = 1;
+        unsigned qos = 0; ///< of its accesses, 0 to 15
     };
     static constexpr unsigned int kLineBytes = 64;
 
@@ -49,6 +52,7 @@ private:
     std::uint64_t errors_ = 0;
     std::vector<sc_core::sc_time> done_; // ring: when the latest lines were there
     std::vector<unsigned char> line_;
+    RequestInfo info_;
     sc_core::sc_event rate_changed_;
 };
 

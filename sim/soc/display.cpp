@@ -11,6 +11,7 @@ namespace degs::sim {
 
 Display::Display(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config) {
+    info_.qos = config_.qos;
     DEGS_HAS_PROCESS(Display);
     SC_THREAD(run);
 }
@@ -58,8 +59,10 @@ sc_core::sc_time Display::fetch_row(std::uint64_t address, int width) {
             std::min<std::size_t>(config_.request_bytes, row_.size() - at));
         tlm::tlm_generic_payload payload;
         set_access(payload, tlm::TLM_READ_COMMAND, address + at, row_.data() + at, bytes);
+        payload.set_extension(&info_);
         sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
         out->b_transport(payload, delay);
+        payload.clear_extension(&info_);
         there = std::max(there, sc_core::sc_time_stamp() + delay);
         stats_.bytes += bytes;
         stats_.errors += payload.is_response_error() ? 1 : 0;

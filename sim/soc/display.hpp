@@ -8,6 +8,8 @@
 #include <tlm>
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include "degs/request_info.hpp"
+
 namespace degs::sim {
 
 /// Display controller: reads a frame of RGBA8 at the rate of its screen, row by row: the rows of
@@ -19,6 +21,7 @@ public:
     struct Config {
         double refresh_hz = 60;
         unsigned int request_bytes = 256;
+        unsigned qos = 0; ///< of its accesses, 0 to 15
     };
     struct Stats {
         std::uint64_t pictures = 0, rows = 0, underruns = 0, errors = 0;
@@ -48,6 +51,7 @@ private:
     std::vector<Part> frame_; // empty until it is turned on
     sc_core::sc_time due_;    // of the next row
     std::vector<unsigned char> row_;
+    RequestInfo info_;
     Stats stats_;
     sc_core::sc_event turned_on_;
 };

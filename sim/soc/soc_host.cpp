@@ -223,6 +223,7 @@ SocFrame SocHost::render() {
     frame.bytes_written = counters.bytes_written;
     frame.fragments = counters.fragments;
     frame.views = in_table_ ? drawn_views() : std::vector<degs_drawn_view>{only_view(target)};
+    check_pixels(frame);
     return frame;
 }
 
@@ -244,13 +245,17 @@ degs_drawn_view SocHost::only_view(const Target& target) const {
     return view;
 }
 
-std::vector<std::vector<unsigned char>> SocHost::pixels(const SocFrame& frame) {
-    std::vector<std::vector<unsigned char>> all;
+void SocHost::check_pixels(const SocFrame& frame) {
+    Pixels pixels;
     for (const degs_drawn_view& view : frame.views) {
-        all.emplace_back(std::size_t{4} * view.width * view.height);
-        debug(tlm::TLM_READ_COMMAND, view.address, all.back());
+        pixels.emplace_back(std::size_t{4} * view.width * view.height);
+        debug(tlm::TLM_READ_COMMAND, view.address, pixels.back());
     }
-    return all;
+    if (pixels_.empty()) {
+        pixels_ = pixels;
+    } else if (pixels_ != pixels) {
+        throw std::logic_error("the model is broken: pixels depend on the memory's load");
+    }
 }
 
 } // namespace degs::sim

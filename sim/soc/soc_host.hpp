@@ -50,10 +50,12 @@ public:
     /// Asks the accelerator how much it needs, and reserves that and two frame buffers for each
     /// image. Throws InputError if memory is too small.
     void reserve_memory();
-    /// Renders into one of the two sets of frame buffers in turn.
+    /// Renders into one of the two sets of frame buffers in turn. Throws std::logic_error if the
+    /// pixels are not those of the first frame.
     SocFrame render();
-    /// RGBA8, of each drawn view.
-    std::vector<std::vector<unsigned char>> pixels(const SocFrame& frame);
+    /// RGBA8 of each drawn view, which no frame changes.
+    using Pixels = std::vector<std::vector<unsigned char>>;
+    const Pixels& pixels() const { return pixels_; }
 
 private:
     /// Where a frame is drawn.
@@ -67,6 +69,7 @@ private:
     std::uint64_t reserve(std::uint64_t bytes);
     void set_target(const Target& target);
     void write_table(const Target& target);
+    void check_pixels(const SocFrame& frame);
     std::vector<degs_drawn_view> drawn_views();
     degs_drawn_view only_view(const Target& target) const;
     void debug(tlm::tlm_command command, std::uint64_t address, std::vector<unsigned char>& data);
@@ -77,6 +80,7 @@ private:
     bool in_table_ = false;                // the views, and not in registers
     std::array<Target, 2> targets_;
     std::size_t frames_ = 0;
+    Pixels pixels_; // of the first frame
     bool finished_ = false;
 };
 

@@ -13,14 +13,22 @@ constexpr double kSocTop = 70; // px
 constexpr int kTicks = 5;
 constexpr const char* kColour = "#0072b2";
 
+double competing_gb_per_s(const SocPoint& point) {
+    double sum = point.cpu_gb_per_s;
+    for (const SocPoint::Other& other : point.others) {
+        sum += other.gb_per_s;
+    }
+    return sum;
+}
+
 } // namespace
 
 std::string soc_svg(const std::string& title, const std::vector<SocPoint>& points) {
     double load = 1;
     double latency = 1e-6;
     for (const SocPoint& p : points) {
-        load = std::max(load, p.cpu_gb_per_s);
-        latency = std::max(latency, p.frame.latency_ns / 1e6);
+        load = std::max(load, competing_gb_per_s(p));
+        latency = std::max(latency, p.latency_ns() / 1e6);
     }
     const double x_tick = tick_of(load, kTicks);
     const double y_tick = tick_of(latency, kTicks);
@@ -30,6 +38,7 @@ std::string soc_svg(const std::string& title, const std::vector<SocPoint>& point
     const auto y = [&](double v) {
         return kChartBottom - v / (kTicks * y_tick) * (kChartBottom - kSocTop);
     };
+    double last = points.empty() ? 0 : points.front().rate_per_s;
     Svg svg;
     svg.text(16, 30, title, {16, kInk, "start", true});
     for (int i = 0; i <= kTicks; ++i) {
@@ -40,17 +49,21 @@ std::string soc_svg(const std::string& title, const std::vector<SocPoint>& point
         svg.text(x(i * x_tick), kChartBottom + 18, decimal_text(i * x_tick),
                  {kSmallText, kGrey, "middle", false});
     }
-    svg.text((kChartLeft + kChartRight) / 2, kChartBottom + 42,
-             "competing traffic of the cores, GB/s", {kSmallText, kGrey, "middle", false});
+    svg.text((kChartLeft + kChartRight) / 2, kChartBottom + 42, "competing traffic, GB/s",
+             {kSmallText, kGrey, "middle", false});
     svg.text(kChartLeft, kSocTop - 10, "frame latency, ms", {kSmallText, kGrey, "middle", false});
+    // A line for each load of the cores, if others have several rates.
     Svg::Points line;
     for (const SocPoint& p : points) {
-        line.emplace_back(x(p.cpu_gb_per_s), y(p.frame.latency_ns / 1e6));
+        if (!line.empty() && p.rate_per_s == points.front().rate_per_s && p.rate_per_s != last) {
+            svg.polyline(line, kColour, 2);
+            line.clear();
+        }
+        last = p.rate_per_s;
+        line.emplace_back(x(competing_gb_per_s(p)), y(p.latency_ns() / 1e6));
+        svg.marker(Marker::Circle, line.back().first, line.back().second, kColour);
     }
     svg.polyline(line, kColour, 2);
-    for (const auto& [px, py] : line) {
-        svg.marker(Marker::Circle, px, py, kColour);
-    }
     return svg.document(kPlotWidth, kChartHeight, title);
 }
 

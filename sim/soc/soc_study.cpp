@@ -61,32 +61,20 @@ Image whole(const FoveatedView& image, const std::vector<Image>& levels) {
     return levels.size() == 1 ? levels.front() : compose(image.camera, image.levels, pointers);
 }
 
-/// A frame for each load, one after the other in one simulation.
+/// The frames of each load with each rate, one after the other in one simulation.
 class StudyRuns {
 public:
     StudyRuns(const SocRequest& request, SocPlatform& platform, const View& view)
         : request_(request), platform_(platform), cloud_(as_floats(view.scene.cloud)),
           images_(request.images.empty() ? images_of({view.camera}, {}) : request.images),
-          antialiased_(view.scene.traits.antialiased) {}
-
-    void operator()(SocHost& host) {
-        host.load_scene(cloud_);
-        host.set_images(images_, request_.foveation);
-        host.reserve_memory();
-        for (const double load : request_.loads) {
-            platform_.set_load(load);
-            sc_core::wait(sc_core::sc_time(kSettleUs, sc_core::SC_US));
-            measure(host, load);
-            const Pixels pixels = host.pixels(result.points.back().frame);
-            if (pixels_.empty()) {
-                pixels_ = pixels;
-            } else if (pixels_ != pixels) {
-                throw std::logic_error("the model is broken: pixels depend on the memory's load");
-            }
+          antialiased_(view.scene.traits.antialiased) {
+        platform_.host(0).program = [this](SocHost& host) { measure_all(host); };
+        for (std::size_t i = 1; i < platform_.accelerators(); ++i) {
+            others_.push_back(std::make_unique<Competitor>(
+                platform_.host(i), [this](SocHost& host) { prepare(host); }));
         }
-        platform_.set_load(0);
-        result.display = platform_.display().stats();
     }
+
     void judge() {
         result.psnr_db = std::numeric_limits<double>::infinity();
         std::size_t view = 0;
@@ -100,11 +88,9 @@ public:
     SocResult result;
 
 private:
-    using Pixels = std::vector<std::vector<unsigned char>>; // of each drawn view
-
     /// `first`: the drawn view that is its finest level.
     SocImage judge(const FoveatedView& image, std::size_t first) {
-        const AcceleratorConfig& config = request_.config.accelerator();
+        const AcceleratorConfig& config = request_.config().accelerator();
         SocImage judged;
         std::vector<Image> drawn;
         std::vector<Image> references;
@@ -113,7 +99,7 @@ private:
                 cloud_, image.levels[v].camera, config.tile_size_px(), config.tile_mode(),
                 config.data_path().rules.options(antialiased_));
             references.push_back(reference_of(frame));
-            drawn.push_back(image_of(pixels_[first + v], frame.camera));
+            drawn.push_back(image_of(platform_.host(0).pixels()[first + v], frame.camera));
             judged.crc32s.push_back(pixel_crc32(drawn.back()));
             if (first + v == 0) {
                 result.warnings = near_plane_warnings(frame);
@@ -130,28 +116,86 @@ private:
         }
         return parts;
     }
-    void measure(SocHost& host, double load) {
-        const std::uint64_t cpu = platform_.cpu_bytes();
-        const Display::Stats shown = platform_.display().stats();
+    void prepare(SocHost& host) const {
+        host.load_scene(cloud_);
+        host.set_images(images_, request_.foveation);
+        host.reserve_memory();
+    }
+    void set_rates(double frames_per_s) {
+        for (const auto& other : others_) {
+            other->set_rate(frames_per_s);
+        }
+    }
+    void measure_all(SocHost& host) {
+        prepare(host);
+        for (const double load : request_.loads) {
+            for (const double rate : request_.rates) {
+                for (const auto& other : others_) {
+                    other->wait_until_idle();
+                }
+                platform_.set_load(load);
+                sc_core::wait(sc_core::sc_time(kSettleUs, sc_core::SC_US));
+                set_rates(rate);
+                measure(host, load, rate);
+                set_rates(0);
+            }
+        }
+        platform_.set_load(0);
+        result.display = platform_.display().stats();
+    }
+    /// What has been counted up to now.
+    struct Snapshot {
+        std::uint64_t cpu = 0;
+        Display::Stats display;
+        std::vector<std::uint64_t> bytes;
+        std::vector<Competitor::Counts> counts;
+    };
+    Snapshot snapshot() const {
+        Snapshot now{platform_.cpu_bytes(), platform_.display().stats(), {}, {}};
+        for (std::size_t i = 0; i < others_.size(); ++i) {
+            now.bytes.push_back(platform_.accelerator_bytes(i + 1));
+            now.counts.push_back(others_[i]->counts());
+        }
+        return now;
+    }
+    void measure(SocHost& host, double load, double rate) {
         SocPoint point;
         point.offered_gb_per_s = load;
+        point.rate_per_s = rate;
+        const Snapshot before = snapshot();
         const sc_core::sc_time begin = sc_core::sc_time_stamp();
-        point.frame = host.render();
-        const ClockDomain clock(request_.config.accelerator().clock_ghz);
+        for (int f = 0; f < request_.frames; ++f) {
+            point.frames.push_back(render(host, load));
+        }
+        fill(point, before, snapshot(), (sc_core::sc_time_stamp() - begin).to_seconds() * 1e9);
+        result.points.push_back(point);
+    }
+    static void fill(SocPoint& point, const Snapshot& before, const Snapshot& after, double ns) {
+        const auto rate = [ns](std::uint64_t bytes) { return rate_of(bytes, ns); };
+        point.cpu_gb_per_s = rate(after.cpu - before.cpu);
+        point.display_gb_per_s = rate(after.display.bytes - before.display.bytes);
+        point.display_rows = after.display.rows - before.display.rows;
+        point.late_rows = after.display.underruns - before.display.underruns;
+        std::uint64_t own = 0;
+        for (const SocFrame& frame : point.frames) {
+            own += frame.bytes_read + frame.bytes_written;
+        }
+        point.accelerator_gb_per_s = rate(own);
+        for (std::size_t i = 0; i < after.bytes.size(); ++i) {
+            point.others.push_back(
+                {rate(after.bytes[i] - before.bytes[i]), after.counts[i].since(before.counts[i])});
+        }
+    }
+    SocFrame render(SocHost& host, double load) {
+        const sc_core::sc_time begin = sc_core::sc_time_stamp();
+        SocFrame frame = host.render();
+        const ClockDomain clock(request_.config().accelerator().clock_ghz);
         result.frames.push_back({"frame, cores ask for " + three_digits(load) + " GB/s",
                                  clock.floor(begin), clock.ceil(sc_core::sc_time_stamp())});
-        const double ns = point.frame.latency_ns;
-        const auto rate = [ns](std::uint64_t bytes) { return rate_of(bytes, ns); };
-        point.cpu_gb_per_s = rate(platform_.cpu_bytes() - cpu);
-        const Display::Stats& display = platform_.display().stats();
-        point.display_gb_per_s = rate(display.bytes - shown.bytes);
-        point.display_rows = display.rows - shown.rows;
-        point.late_rows = display.underruns - shown.underruns;
-        point.accelerator_gb_per_s = rate(point.frame.bytes_read + point.frame.bytes_written);
-        result.points.push_back(point);
         if (request_.refresh_hz > 0) {
-            platform_.display().show(parts_of(point.frame));
+            platform_.display().show(parts_of(frame));
         }
+        return frame;
     }
 
     const SocRequest& request_;
@@ -159,10 +203,24 @@ private:
     GaussianCloud cloud_;
     std::vector<FoveatedView> images_;
     bool antialiased_;
-    Pixels pixels_; // of the first frame
+    std::vector<std::unique_ptr<Competitor>> others_;
 };
 
 } // namespace
+
+double SocPoint::latency_ns() const {
+    double sum = 0;
+    for (const SocFrame& frame : frames) {
+        sum += frame.latency_ns;
+    }
+    return mean_of(sum, frames.size());
+}
+
+std::size_t SocPoint::late_frames(double deadline_ms) const {
+    return std::count_if(frames.begin(), frames.end(), [deadline_ms](const SocFrame& frame) {
+        return deadline_ms > 0 && frame.latency_ns > 1e6 * deadline_ms;
+    });
+}
 
 std::vector<FoveatedView> images_of(const std::vector<Camera>& cameras,
                                     const std::optional<Foveation>& foveation) {
@@ -184,12 +242,13 @@ SocResult run_soc(const SocRequest& request, const View& view) {
     }
     SocPlatform platform("soc", request, view, timeline ? &*timeline : nullptr);
     StudyRuns study(request, platform, view);
-    platform.host().program = [&study](SocHost& host) { study(host); };
     {
         Progress progress("platform");
-        while (!platform.host().finished()) {
+        const std::size_t frames =
+            request.loads.size() * request.rates.size() * static_cast<std::size_t>(request.frames);
+        while (!platform.host(0).finished()) {
             sc_core::sc_start(sc_core::sc_time(10, sc_core::SC_US));
-            progress.done(ratio_of(study.result.points.size(), request.loads.size()));
+            progress.done(ratio_of(study.result.frames.size(), frames));
         }
     }
     study.judge();

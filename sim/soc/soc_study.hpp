@@ -10,6 +10,7 @@
 
 #include "dram/channels.hpp"
 #include "sim/design/run_config.hpp"
+#include "sim/soc/competitor.hpp"
 #include "sim/soc/cpu_traffic.hpp"
 #include "sim/soc/display.hpp"
 #include "sim/soc/soc_host.hpp"
@@ -19,18 +20,32 @@
 
 namespace degs::sim {
 
-/// The parts of the platform, and the load that competes with the accelerator.
-struct SocRequest {
+/// An accelerator of the platform; `qos`: of its accesses, 0 to 15.
+struct SocAccelerator {
     RunConfig config;
+    unsigned qos = 0;
+};
+
+/// The parts of the platform, and the loads that compete with the accelerator.
+struct SocRequest {
+    std::vector<SocAccelerator> accelerators =
+        std::vector<SocAccelerator>(1); ///< the first is measured, the others compete with it
     dram::Config memory;
-    std::vector<double> loads; ///< GB/s that all cores together ask for, one frame each
+    std::vector<double> loads;    ///< GB/s that all cores together ask for
+    std::vector<double> rates{0}; ///< frames per second that each other accelerator begins
+    int frames = 1;               ///< for each load and rate
+    double deadline_ms = 0;       ///< of a frame; 0: none
     int cores = 4;
+    unsigned cores_qos = 0, display_qos = 0;
     CpuTraffic::Pattern pattern = CpuTraffic::Pattern::Stream;
     int reads_per_write = 2;
     double refresh_hz = 60;                   ///< of the display; 0: none
-    std::optional<Timeline::Config> timeline; ///< of the accelerator
+    std::optional<Timeline::Config> timeline; ///< of the measured accelerator
     std::vector<FoveatedView> images;         ///< of a frame; empty: the camera of the view
     std::optional<Foveation> foveation;       ///< of each image
+
+    /// Of the accelerator that is measured.
+    const RunConfig& config() const { return accelerators.front().config; }
 };
 
 /// The images of cameras, with the levels that draw them.
@@ -44,7 +59,18 @@ struct SocPoint {
     std::uint64_t display_rows = 0; ///< that the display fetched during the frame
     std::uint64_t late_rows = 0;    ///< of those, underruns
     double accelerator_gb_per_s = 0;
-    SocFrame frame;
+    std::vector<SocFrame> frames; ///< of the measured accelerator, one after the other
+    /// What another accelerator did meanwhile.
+    struct Other {
+        double gb_per_s = 0;
+        Competitor::Counts counts;
+    };
+    double rate_per_s = 0; ///< at which they begin frames
+    std::vector<Other> others;
+
+    double latency_ns() const; ///< mean of the frames
+    /// Frames that took longer; 0: no deadline.
+    std::size_t late_frames(double deadline_ms) const;
 };
 
 /// An image as it was in memory, or was made from the levels that were there.
@@ -64,16 +90,16 @@ struct SocResult {
     std::vector<TraceSpan> frames; ///< cycles of the accelerator, if asked for
 };
 
-/// Host, accelerator, display controller and cores on an AddressBus with an Lpddr5 memory: renders
-/// the frame once per load. Once per process. Throws InputError if the scene does not fit,
-/// std::logic_error if a frame's pixels depend on the load, std::runtime_error if the accelerator
-/// reports an error.
+/// Hosts, accelerators, display controller and cores on an AddressBus with an Lpddr5 memory:
+/// renders the frames of each load with each rate. Once per process. Throws InputError if the scene
+/// does not fit, std::logic_error if a frame's pixels depend on the load, std::runtime_error if an
+/// accelerator reports an error.
 SocResult run_soc(const SocRequest& request, const View& view);
 
 nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
                                 const SocResult& result);
 std::string soc_words(const SocRequest& request, const View& view, const SocResult& result);
-/// Frame latency over the load.
+/// Frame latency over the traffic of cores and other accelerators.
 std::string soc_svg(const std::string& title, const std::vector<SocPoint>& points);
 
 } // namespace degs::sim

@@ -24,7 +24,7 @@ std::string TextTable::text() const {
     const std::size_t columns = lines_.front().size();
     std::vector<std::size_t> widths(columns, 0), used;
     for (std::size_t c = 0; c < columns; ++c) {
-        bool filled = c == 0;
+        bool filled = c == 0 && lines_.size() == 1;
         for (std::size_t row = 0; row < lines_.size(); ++row) {
             widths[c] = std::max({widths[c], characters(lines_[row][c]), std::size_t{1}});
             filled = filled || (row > 0 && !lines_[row][c].empty());
@@ -36,8 +36,8 @@ std::string TextTable::text() const {
     std::string text;
     const std::size_t most = output_columns();
     for (std::size_t first = 1; first < used.size() || text.empty();) {
-        std::vector<std::size_t> part{0};
-        std::size_t width = widths[0];
+        std::vector<std::size_t> part{used.front()};
+        std::size_t width = widths[used.front()];
         while (first < used.size() &&
                (part.size() == 1 || width + kGap + widths[used[first]] <= most)) {
             width += kGap + widths[used[first]];
@@ -53,9 +53,10 @@ std::string TextTable::text_of(const std::vector<std::size_t>& columns,
     std::string text;
     for (const auto& line : lines_) {
         for (const std::size_t c : columns) {
-            const std::string cell = line[c].empty() && c != 0 ? "-" : line[c];
+            const bool first = c == columns.front();
+            const std::string cell = line[c].empty() && !first ? "-" : line[c];
             const std::string padding(widths[c] - characters(cell), ' ');
-            if (c == 0) {
+            if (first) {
                 text.append(cell).append(padding);
             } else {
                 text.append(kGap, ' ').append(padding).append(cell);

@@ -6,8 +6,8 @@
 
 namespace degs::sim {
 
-/// A table for terminals. The first column is flushed left, the others right; a column in which
-/// every cell below the heading is empty is left out, other empty cells show "-". A table wider
+/// A table for terminals. A column in which every cell below the heading is empty is left out. Of
+/// the others the first is flushed left, the rest right; other empty cells show "-". A table wider
 /// than output_columns() goes on below, column by column, and repeats its first one.
 class TextTable {
 public:

@@ -49,7 +49,8 @@ struct Outcome {
 ///
 /// Modelled:
 /// * read and write queue, FR-FCFS and other policies, open and closed page
-/// * urgent reads, which enter the read queue before others
+/// * levels of reads, of which the higher ones go first, and urgent reads of a level, which enter
+///   the read queue before others
 /// * writes in batches between two watermarks, and at once when no read waits
 /// * forwarding of reads from queued writes, and merging of writes
 /// * all-bank and per-bank refresh

@@ -49,6 +49,7 @@ void Channels::split(const Request& request, std::uint32_t id) {
     access.date = request.date;
     access.id = id;
     access.write = request.write;
+    access.qos = request.qos;
     access.urgent = request.urgent;
     if (request.records == nullptr) {
         split_run(access, request.address, request.bytes);

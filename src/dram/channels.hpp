@@ -37,7 +37,8 @@ struct Request {
     std::uint64_t address = 0, bytes = 0;
     std::uint32_t id = 0; ///< small; free again when the request is complete
     bool write = false;
-    bool urgent = false; ///< a read that waits for room in the queues before those that are not
+    std::uint8_t qos = 0; ///< level of a read, 0 to 15; the higher ones wait for room first
+    bool urgent = false;  ///< a read that, of its level, waits for room before those that are not
     const ScatteredRecords* records = nullptr; ///< if not null, in place of `address` and `bytes`
 };
 

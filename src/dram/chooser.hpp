@@ -94,7 +94,10 @@ private:
     void offer(const Candidate& candidate, unsigned bank, const ChannelState& state) {
         const Ck date =
             std::max(state.banks.dates().earliest(candidate.command, bank), state.clock);
-        if (date < choice_.date || (date == choice_.date && candidate.order < best_order_)) {
+        // Levels may bring about equal orders; the first bank goes first, as among all of them.
+        const bool first = candidate.order < best_order_ ||
+                           (candidate.order == best_order_ && bank < choice_.bank);
+        if (date < choice_.date || (date == choice_.date && first)) {
             choice_ = {date, candidate.command, static_cast<std::uint8_t>(bank), candidate.slot,
                        false};
             best_order_ = candidate.order;

@@ -61,6 +61,10 @@ void ControllerConfig::describe(ConfigVisitor& visitor) {
     visitor.boolean("posted_writes", posted_writes,
                     "answer a write when its queue has it, and merge writes to one place; off: "
                     "answer with the last beat");
+    visitor.integer("qos_step", qos_step, 0, Queue::kMostStep,
+                    "accesses of 64 B; a read whose level (AxQOS) is one higher counts as having "
+                    "come to the channel so many reads earlier, so that no level starves; as many "
+                    "as the largest queue has [assumed]");
 }
 
 } // namespace degs::dram

@@ -30,6 +30,7 @@ struct ControllerConfig {
     Refresh refresh = Refresh::AllBank;
     bool refresh_stagger = false;
     bool posted_writes = true;
+    int qos_step = 64; ///< accesses
     double urgent_share =
         0; ///< of the read queue, kept free for urgent reads; set by the requester
     void describe(ConfigVisitor& visitor);

@@ -40,9 +40,9 @@ void Future::step(Outcome& outcome) {
         return;
     }
     const bool admitted = outcome.admitted.size() != before;
-    for (const Queues::Kind kind : {Queues::kWrite, Queues::kUrgentRead, Queues::kRead}) {
-        // An ordinary read may have taken room that an urgent one would have had before it.
-        const bool overtakes = kind == Queues::kUrgentRead && admitted;
+    for (const Queues::Kind kind : {Queues::kWrite, Queues::kFavouredRead, Queues::kRead}) {
+        // A read may have taken room that one of a higher level, or an urgent one, would have had.
+        const bool overtakes = kind == Queues::kFavouredRead && admitted;
         if (welcome_[kind] == kNoDate && (overtakes || copy_->welcomes(kind))) {
             welcome_[kind] = until_;
         }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "degs/request_info.hpp"
 #include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
 #include "tlm/scattered_records.hpp"
@@ -194,6 +195,9 @@ void Lpddr5::take_in(Arrival& arrival) {
     request.bytes = arrival.payload->get_data_length();
     request.write = arrival.payload->is_write();
     request.urgent = !request.write && arrival.payload->get_extension<Urgent>() != nullptr;
+    if (const auto* info = arrival.payload->get_extension<RequestInfo>()) {
+        request.qos = static_cast<std::uint8_t>(std::min(info->qos, RequestInfo::kMostQos));
+    }
     request.id = arrival.id;
     if (const auto* scattered = arrival.payload->get_extension<Scattered>()) {
         request.records = scattered->records;

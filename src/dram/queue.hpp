@@ -18,8 +18,9 @@ struct Access {
     std::uint8_t bank = 0;
     std::uint8_t block = 0;  ///< of 64 bytes in the row
     std::uint8_t bursts = 1; ///< mask: which bursts of the block
+    std::uint8_t qos = 0;    ///< a read: level, 0 to 15; the higher ones wait for room first
     bool write = false;
-    bool urgent = false;      ///< a read: waits for room in the queue before those that are not
+    bool urgent = false;      ///< a read: of its level, waits for room before those that are not
     bool after_write = false; ///< a read: an older write to the block may be waiting
 };
 
@@ -38,22 +39,26 @@ inline double hit_rate(const ByRowState& counts) {
     return ratio_of(hits, hits + closed + conflicts);
 }
 
-/// A controller queue of one direction: fixed slots, and a list per bank in the order of arrival.
+/// A controller queue of one direction: fixed slots, and a list per bank in the order of arrival. A
+/// level more counts as having arrived `step` accesses earlier.
 class Queue {
 public:
     static constexpr int kSlots = 64;
     static constexpr std::uint8_t kNone = 0xFF;
     struct Entry {
         Access access;
-        std::uint64_t age = 0; ///< counts arrivals
+        std::uint64_t age = 0; ///< counts arrivals; less for a higher level
         std::uint8_t left = 0; ///< mask of bursts that have not been issued
         RowState outcome = RowState::Hit;
         std::uint8_t next = kNone, previous = kNone; ///< of the same bank
     };
 
-    /// `depth`: 1 to kSlots.
-    explicit Queue(int depth)
-        : free_(depth >= kSlots ? ~std::uint64_t{0} : (std::uint64_t{1} << depth) - 1) {
+    static constexpr int kMostStep = 512;
+
+    /// `depth`: 1 to kSlots; `step`: 0 to kMostStep.
+    explicit Queue(int depth, int step = 0)
+        : step_(static_cast<unsigned>(step)),
+          free_(depth >= kSlots ? ~std::uint64_t{0} : (std::uint64_t{1} << depth) - 1) {
         head_.fill(kNone);
         tail_.fill(kNone);
     }
@@ -72,13 +77,17 @@ public:
         const unsigned bank = access.bank;
         Entry& entry = entries_[slot]; // in place, which is faster than to copy an entry
         entry.access = access;
-        entry.age = arrivals_++;
+        entry.age = arrivals_++ - std::uint64_t{step_} * access.qos;
         entry.left = access.bursts;
         entry.outcome = RowState::Hit;
-        entry.next = kNone;
-        entry.previous = tail_[bank];
-        (tail_[bank] == kNone ? head_[bank] : entries_[tail_[bank]].next) = slot;
-        tail_[bank] = slot;
+        std::uint8_t previous = tail_[bank];
+        while (previous != kNone && entries_[previous].age > entry.age) {
+            previous = entries_[previous].previous;
+        }
+        entry.previous = previous;
+        entry.next = previous == kNone ? head_[bank] : entries_[previous].next;
+        (previous == kNone ? head_[bank] : entries_[previous].next) = slot;
+        (entry.next == kNone ? tail_[bank] : entries_[entry.next].previous) = slot;
         banks_ |= 1U << bank;
         ++size_;
         return slot;
@@ -140,10 +149,13 @@ public:
     }
 
 private:
+    static constexpr std::uint64_t kFirstArrival = 1U << 16U; // no age is negative
+
     std::array<Entry, kSlots> entries_;
     std::array<std::uint8_t, kMostBanks> head_, tail_;
+    unsigned step_;
     std::uint64_t free_;
-    std::uint64_t arrivals_ = 0;
+    std::uint64_t arrivals_ = kFirstArrival;
     std::uint32_t banks_ = 0;
     unsigned size_ = 0;
 };

@@ -19,7 +19,8 @@ Queues::Queues(const ControllerConfig& config)
       write_low_(entries(config.write_low, config.write_queue)),
       most_ordinary_(
           std::max(1U, config.read_queue - entries(config.urgent_share, config.read_queue))),
-      reads_(config.read_queue), writes_(config.write_queue) {}
+      reads_(config.read_queue, config.qos_step), writes_(config.write_queue),
+      reads_in_(config.qos_step) {}
 
 bool Queues::push(const Access& access) {
     if (access.write) {
@@ -29,7 +30,7 @@ bool Queues::push(const Access& access) {
         return posted_writes_;
     }
     after_writes_ += access.after_write ? 1 : 0;
-    (access.urgent ? urgent_in_ : reads_in_).push_back(access);
+    reads_in_.push(access);
     return access.after_write;
 }
 
@@ -71,11 +72,9 @@ void Queues::remove(unsigned slot) {
 
 std::uint64_t Queues::bursts_left() const {
     std::uint64_t bursts = reads_.bursts_left() + writes_.bursts_left();
-    for (const auto* waiting : {&urgent_in_, &reads_in_, &writes_in_}) {
-        for (const Access& access : *waiting) {
-            bursts += bursts_of(access.bursts);
-        }
-    }
+    const auto add = [&bursts](const Access& access) { bursts += bursts_of(access.bursts); };
+    reads_in_.for_each(add);
+    std::for_each(writes_in_.begin(), writes_in_.end(), add);
     return bursts;
 }
 

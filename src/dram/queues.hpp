@@ -8,13 +8,14 @@
 
 #include "dram/controller.hpp"
 #include "dram/queue.hpp"
+#include "dram/waiting_reads.hpp"
 
 namespace degs::dram {
 
 /// The read queue and the write queue of a channel, the accesses that wait for their date or for
 /// room in them, and the choice of the queue that is served. Reads go first. Writes go in batches
-/// between two watermarks, or when no read waits. Urgent reads enter the read queue before others,
-/// which leave a share of it free for them; once in the queue, all are equal.
+/// between two watermarks, or when no read waits. Reads enter the read queue and stand in it by
+/// level; urgent ones of a level enter before others, which leave a share of it free for them.
 class Queues {
 public:
     explicit Queues(const ControllerConfig& config);
@@ -29,40 +30,31 @@ public:
     /// soon as the queues have it.
     bool push(const Access& access);
     /// What waits separately; accesses of one kind get in in the order of their arrival.
-    enum Kind : std::uint8_t { kWrite, kUrgentRead, kRead, kKinds };
+    enum Kind : std::uint8_t { kWrite, kFavouredRead, kRead, kKinds };
     static Kind kind_of(const Access& access) {
-        return access.write ? kWrite : access.urgent ? kUrgentRead : kRead;
+        return access.write ? kWrite : WaitingReads::is_lowest(access) ? kRead : kFavouredRead;
     }
-    /// An access of this kind that came now would get into its queue at once.
+    /// An access of this kind that came now could get into its queue at once.
     bool welcomes(Kind kind) const {
         switch (kind) {
         case kWrite:
             return writes_in_.empty() && !writes_.full();
-        case kUrgentRead:
-            return urgent_in_.empty() && !reads_.full();
+        case kFavouredRead:
+            return !reads_.full();
         default:
-            return reads_in_.empty() && ordinary_fit();
+            return !reads_in_.has_lowest() && room().ordinary;
         }
     }
     /// The earliest date of an access that waits and for which there is room.
     Ck next_admission() const {
-        Ck date = kNoDate;
-        if (!urgent_in_.empty() && !reads_.full()) {
-            date = urgent_in_.front().date;
-        }
-        if (!reads_in_.empty() && ordinary_fit()) {
-            date = std::min(date, reads_in_.front().date);
-        }
-        if (!writes_in_.empty() && !writes_.full()) {
-            date = std::min(date, writes_in_.front().date);
-        }
-        return date;
+        const Ck date = reads_in_.next_date(room());
+        return !writes_in_.empty() && !writes_.full() ? std::min(date, writes_in_.front().date)
+                                                      : date;
     }
-    bool write_ready(Ck date) const { return ready(writes_in_, writes_, date); }
-    bool read_ready(Ck date) const {
-        return ready(urgent_in_, reads_, date) ||
-               (ordinary_fit() && ready(reads_in_, reads_, date));
+    bool write_ready(Ck date) const {
+        return !writes_in_.empty() && !writes_.full() && writes_in_.front().date <= date;
     }
+    bool read_ready(Ck date) const { return reads_in_.ready(date, room()); }
     /// Takes the first that is ready; it then is enqueued, merged, or answered from a write.
     Access take_write() {
         const Access access = writes_in_.front();
@@ -70,9 +62,7 @@ public:
         return access;
     }
     Access take_read(Ck date) {
-        Waiting& reads = ready(urgent_in_, reads_, date) ? urgent_in_ : reads_in_;
-        const Access access = reads.front();
-        reads.pop_front();
+        const Access access = reads_in_.take(date, room());
         after_writes_ -= access.after_write ? 1 : 0;
         return access;
     }
@@ -111,24 +101,19 @@ public:
     /// True if nothing is queued and nothing waits for a queue.
     bool idle() const;
     /// Accesses that wait for room in a queue, or for their date.
-    std::size_t waiting() const { return urgent_in_.size() + reads_in_.size() + writes_in_.size(); }
+    std::size_t waiting() const { return reads_in_.size() + writes_in_.size(); }
     /// Bursts of all accesses that have not been issued, whether they wait in a queue or for one.
     std::uint64_t bursts_left() const;
     /// Something waits for room in a full queue.
     bool held_up() const {
-        return (reads_.full() && !urgent_in_.empty()) || (!ordinary_fit() && !reads_in_.empty()) ||
-               (writes_.full() && !writes_in_.empty());
+        return reads_in_.held_up(room()) || (writes_.full() && !writes_in_.empty());
     }
     bool has_writes() const { return writes_.size() != 0 || !writes_in_.empty(); }
     /// Accesses that wait for room may be answered when they get in.
     bool answers_at_admission() const { return after_writes_ != 0 || !writes_in_.empty(); }
 
 private:
-    using Waiting = std::deque<Access>;
-    static bool ready(const Waiting& waiting, const Queue& queue, Ck date) {
-        return !waiting.empty() && !queue.full() && waiting.front().date <= date;
-    }
-    bool ordinary_fit() const { return reads_.size() < most_ordinary_; }
+    WaitingReads::Room room() const { return {!reads_.full(), reads_.size() < most_ordinary_}; }
     /// Writes that had come by a date. Those that are ahead of it still wait for their own.
     std::uint32_t writes_up_to(Ck date) const {
         std::uint32_t writes = writes_so_far_;
@@ -151,7 +136,8 @@ private:
     unsigned write_high_, write_low_; // entries
     unsigned most_ordinary_;          // in the read queue no more enter that are not urgent
     Queue reads_, writes_;
-    Waiting urgent_in_, reads_in_, writes_in_; // wait for their date or for room
+    WaitingReads reads_in_;
+    std::deque<Access> writes_in_; // wait for their date or for room, as reads_in_ do
     bool writing_ = false;
     // The number of waiting writes by hash. It shows at arrival that a read has nothing to wait
     // for.

@@ -58,7 +58,7 @@ void describe(AcceleratorOptions& options, ConfigVisitor& visitor) {
     visit_count(visitor, "boundary_bytes", options.memory.boundary_bytes, 0,
                 "bytes; a power of two from 4 on, of which no transaction crosses a multiple; 0 is "
                 "no boundary");
-    visit_count(visitor, "qos", options.memory.qos, 0, AcceleratorOptions::kMostQos,
+    visit_count(visitor, "qos", options.memory.qos, 0, RequestInfo::kMostQos,
                 "of every transaction, in its extension RequestInfo");
     visitor.choice(
         "faults", options.memory.faults, {"end", "stall"},

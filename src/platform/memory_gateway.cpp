@@ -72,9 +72,9 @@ std::string MemoryGateway::problem(const Options& options) {
                " bytes, which cross the multiples of memory.boundary_bytes, " +
                std::to_string(boundary);
     }
-    if (options.qos > AcceleratorOptions::kMostQos) {
+    if (options.qos > RequestInfo::kMostQos) {
         return "memory.qos is " + std::to_string(options.qos) + ", but must be at most " +
-               std::to_string(AcceleratorOptions::kMostQos);
+               std::to_string(RequestInfo::kMostQos);
     }
     if (burst == 0 && options.burst_ends == BurstEnds::FullBursts) {
         return "memory.burst_ends are full bursts, but memory.burst_bytes is 0, which cuts no "

@@ -157,7 +157,8 @@ public:
     ChannelBench& operator=(const ChannelBench&) = delete;
     ~ChannelBench() = default;
     std::uint32_t push(dram::Ck date, unsigned bank, unsigned row, bool write = false,
-                       unsigned bursts = 1, unsigned block = 0, bool urgent = false) {
+                       unsigned bursts = 1, unsigned block = 0, bool urgent = false,
+                       unsigned qos = 0) {
         dram::Access access;
         access.date = date;
         access.id = next_id_++;
@@ -167,6 +168,7 @@ public:
         access.bursts = static_cast<std::uint8_t>(bursts);
         access.write = write;
         access.urgent = urgent;
+        access.qos = static_cast<std::uint8_t>(qos);
         channel.push(access);
         return access.id;
     }

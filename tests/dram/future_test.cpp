@@ -100,6 +100,13 @@ dram::Access random_access(std::mt19937& random, dram::Ck date, unsigned writes_
     return access;
 }
 
+/// Levels of a phase: the same one for all, or several.
+void draw_levels(std::mt19937& random, std::vector<dram::Access>& accesses, unsigned levels) {
+    for (dram::Access& access : accesses) {
+        access.qos = static_cast<std::uint8_t>(access.write ? 0 : below(random, levels) * 5);
+    }
+}
+
 class SmallRunLpddr5Future : public ::testing::TestWithParam<std::vector<std::string>> {};
 
 // Phases with bursts and pauses, with writes alone, reads alone and every mix.
@@ -110,6 +117,7 @@ TEST_P(SmallRunLpddr5Future, IsThatOfAFreshCopy) {
     for (int phase = 0; phase < 50; ++phase) {
         const unsigned writes = below(random, 9), most = 1U << below(random, 7);
         const unsigned pause = below(random, 4) == 0 ? 400 : 1 + below(random, 30);
+        const unsigned levels = 1U << below(random, 3);
         for (int batch = 0; batch < 12 && !::testing::Test::HasFailure(); ++batch) {
             dram::Ck date = pair.known() + 1 + below(random, pause);
             std::vector<dram::Access> accesses(1 + below(random, most));
@@ -117,6 +125,7 @@ TEST_P(SmallRunLpddr5Future, IsThatOfAFreshCopy) {
                 date += below(random, 8) == 0 ? 1 : 0;
                 access = random_access(random, date, writes);
             }
+            draw_levels(random, accesses, levels);
             pair.expect_equal(accesses);
         }
     }
@@ -132,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{"controller.scheduler=frfcfs_cap",
                                  "controller.frfcfs_cap.row_hits=2"},
         std::vector<std::string>{"controller.write_low=0", "controller.write_high=1",
-                                 "controller.read_queue=2"}));
+                                 "controller.read_queue=2", "controller.qos_step=3"}));
 
 // Every posted write is answered when the queue has it, behind all that wait already.
 TEST(Lpddr5Future, RunsThroughABacklogOfWritesOnce) {

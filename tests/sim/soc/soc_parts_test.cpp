@@ -79,7 +79,8 @@ std::vector<SocPoint> rising_latency() {
     std::vector<SocPoint> points(3);
     for (std::size_t p = 0; p < points.size(); ++p) {
         points[p].cpu_gb_per_s = 100.0 * static_cast<double>(p);
-        points[p].frame.latency_ns = 1e6 * static_cast<double>(1U << p); // 1, 2 and 4 ms
+        points[p].frames.resize(1);
+        points[p].frames[0].latency_ns = 1e6 * static_cast<double>(1U << p); // 1, 2 and 4 ms
     }
     return points;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs soc, as a user calls it.
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 
 #include "sim/soc/soc_study.hpp"
 #include "tests/sim/process/child.hpp"
@@ -114,7 +116,7 @@ TEST(SmallRunSoc, LoadsGoUpToThreeQuartersOfThePeak) {
 // none of a frame before it is among them.
 TEST(SmallRunSoc, LateRowsAreCountedFrameByFrame) {
     sim::SocRequest request;
-    request.config = sim::load_run_config(config("degs-16"), {}, "");
+    request.accelerators[0].config = sim::load_run_config(config("degs-16"), {}, "");
     request.loads = {0, 0, 0};
     request.cores = 1;
     request.refresh_hz = 4e6;
@@ -264,6 +266,146 @@ TEST(SmallRunSoc, FramesInFlightAreViewsThatShareNothing) {
         return written["points"][0]["cycles"].get<double>();
     };
     EXPECT_GT(cycles("1"), cycles("2"));
+}
+
+/// Two accelerators on a memory that is too small for both; their levels, and others of the
+/// options.
+nlohmann::json of_two(const Folder& folder, const std::vector<std::string>& qos,
+                      const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"soc",
+                                   "--accelerator",
+                                   config("gscore-64"),
+                                   "--scene",
+                                   "synthetic:object,gaussians=20000",
+                                   "--width",
+                                   "320",
+                                   "--refresh",
+                                   "0",
+                                   "--memory",
+                                   std::string(DEGS_CONFIGS) + "/memory/lpddr5-3200x128.yaml",
+                                   "--out",
+                                   folder / "two",
+                                   "--accelerator",
+                                   config("gscore-64"),
+                                   "--rate",
+                                   "0",
+                                   "1e9",
+                                   "--frames",
+                                   "3",
+                                   "--deadline",
+                                   "0.01",
+                                   "--qos"};
+    words.insert(words.end(), qos.begin(), qos.end());
+    words.insert(words.end(), more.begin(), more.end());
+    expect_success(degs(words));
+    return nlohmann::json::parse(read_file(folder / "two/soc.json"));
+}
+
+// The second one renders without a pause while the first is measured.
+TEST(SmallRunSoc, SharesOfAcceleratorsFollowTheirLevels) {
+    const Folder folder;
+    std::map<std::string, double> slower; // by the levels
+    for (const auto& qos : {std::vector<std::string>{"15", "0"}, {"4", "4"}, {"0", "15"}}) {
+        SCOPED_TRACE(qos[0] + " and " + qos[1]);
+        const auto written = of_two(folder, qos);
+        ASSERT_EQ(written["points"].size(), 2U);
+        const auto& alone = written["points"][0];
+        const auto& both = written["points"][1];
+        EXPECT_EQ(alone["others"][0]["frames"], 0);
+        EXPECT_EQ(alone["others"][0]["gb_per_s"], 0.0);
+        EXPECT_GE(both["others"][0]["frames"], 2);
+        EXPECT_EQ(both["others"][0]["frames"],
+                  both["others"][0]["late_frames"]); // of a period of 1 ns
+        EXPECT_EQ(both["bytes_read"], alone["bytes_read"]);
+        // Mean, longest and late frames once more from the frames themselves.
+        double sum = 0, longest = 0;
+        int late = 0;
+        ASSERT_EQ(both["frames"].size(), 3U);
+        for (const auto& frame : both["frames"]) {
+            const double ns = frame["latency_ns"];
+            sum += ns;
+            longest = std::max(longest, ns);
+            late += ns > 10000 ? 1 : 0;
+        }
+        EXPECT_NEAR(both["latency_ns"].get<double>(), sum / 3, 1e-6 * sum);
+        EXPECT_EQ(both["longest_latency_ns"], longest);
+        EXPECT_EQ(both["late_frames"], late);
+        // What both got is what the memory can give.
+        EXPECT_LE(both["accelerator_gb_per_s"].get<double>() +
+                      both["others"][0]["gb_per_s"].get<double>(),
+                  1.01 * 51.2);
+        slower[qos[0]] = both["latency_ns"].get<double>() / alone["latency_ns"].get<double>();
+    }
+    EXPECT_LT(slower["15"], 0.95 * slower["4"]);
+    EXPECT_GT(slower["0"], 1.05 * slower["4"]);
+}
+
+// The images of a frame do not depend on who else draws, and an accelerator that draws seldom is in
+// time.
+TEST(SmallRunSoc, AcceleratorsOfSeveralFamiliesDrawSideBySide) {
+    const Folder folder;
+    const std::string scene = scene_of_floats(folder);
+    expect_success(degs({"soc",
+                         config("degs-16"),
+                         "--accelerator",
+                         config("gcc-16"),
+                         config("orange-o1"),
+                         "--scene",
+                         scene,
+                         "--width",
+                         "96",
+                         "--qos",
+                         "0",
+                         "7",
+                         "--rate",
+                         "2000",
+                         "--frames",
+                         "2",
+                         "--deadline",
+                         "1e5",
+                         "--refresh",
+                         "2000",
+                         "--display-qos",
+                         "15",
+                         "--cores-qos",
+                         "3",
+                         "--load",
+                         "10",
+                         "--cores",
+                         "1",
+                         "--out",
+                         folder / "soc"}));
+    expect_success(degs({"run", config("degs-16"), "--scene", scene, "--width", "96", "--no-cache",
+                         "--out", folder / "run"}));
+    const auto written = nlohmann::json::parse(read_file(folder / "soc/soc.json"));
+    EXPECT_GT(written["psnr_db"], 45.0);
+    const auto& point = written["points"][0];
+    EXPECT_EQ(point["fragments"], report_in(folder / "run")["timing"]["fragments"]);
+    EXPECT_EQ(point["late_frames"], 0);
+    ASSERT_EQ(written["others"].size(), 2U);
+    EXPECT_EQ(written["others"][0]["name"], "gcc-16");
+    EXPECT_EQ(written["others"][0]["qos"], 7);
+    EXPECT_EQ(written["others"][1]["qos"], 0);
+    EXPECT_EQ(written["display"]["qos"], 15);
+    EXPECT_EQ(written["cpu"]["qos"], 3);
+    for (const auto& other : point["others"]) {
+        EXPECT_EQ(other["late_frames"], 0);
+        EXPECT_GT(other["gb_per_s"], 0.0);
+    }
+}
+
+TEST(HostileSoc, AcceleratorsAndLevelsAreOneSentence) {
+    const std::vector<std::string> scene{"--scene", "synthetic:object,gaussians=20"};
+    const auto with = [&scene](std::vector<std::string> words) {
+        words.insert(words.end(), scene.begin(), scene.end());
+        return degs(words);
+    };
+    expect_mistake(with({"soc"}), "There is no accelerator");
+    expect_mistake(with({"soc", config("degs-16"), "--qos", "1", "2"}), "--qos has 2 levels");
+    expect_mistake(with({"soc", config("degs-16"), "--rate", "60"}), "there are none");
+    EXPECT_EQ(with({"soc", config("degs-16"), "--qos", "16"}).code, 2);
+    EXPECT_EQ(with({"soc", config("degs-16"), "--deadline", "0"}).code, 2);
+    EXPECT_EQ(with({"soc", config("degs-16"), "--frames", "0"}).code, 2);
 }
 
 TEST(HostileSoc, BadArgumentsAreOneSentence) {
