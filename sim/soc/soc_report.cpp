@@ -77,7 +77,8 @@ nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
                                   {"cycles", p.frame.cycles},
                                   {"bytes_read", p.frame.bytes_read},
                                   {"bytes_written", p.frame.bytes_written},
-                                  {"fragments", p.frame.fragments}});
+                                  {"fragments", p.frame.fragments},
+                                  {"energy_nj", p.frame.energy_nj}});
     }
     json["warnings"] = view.scene.notes;
     for (const std::string& sentence : result.warnings) {
