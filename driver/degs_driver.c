@@ -203,6 +203,10 @@ uint32_t degs_error(const degs_device *device) {
     return (status & DEGS_STATUS_DONE) != 0 ? DEGS_ERROR_CODE_NONE : DEGS_RESULT_NO_FRAME;
 }
 
+void degs_gate_idle(const degs_device *device, int gated) {
+    write_word(device, DEGS_REG_POWER, gated != 0 ? DEGS_POWER_GATE_IDLE : 0);
+}
+
 uint64_t degs_workspace_needed(const degs_device *device) {
     return read_pair(device, DEGS_REG_WORKSPACE_NEEDED);
 }
@@ -213,6 +217,8 @@ void degs_read_counters(const degs_device *device, degs_counters *counters) {
     counters->bytes_read = read_pair(device, DEGS_REG_BYTES_READ);
     counters->bytes_written = read_pair(device, DEGS_REG_BYTES_WRITTEN);
     counters->fragments = read_pair(device, DEGS_REG_FRAGMENTS);
+    counters->frame_energy = read_pair(device, DEGS_REG_FRAME_ENERGY);
+    counters->idle_energy = read_pair(device, DEGS_REG_IDLE_ENERGY);
     counters->frames = read_word(device, DEGS_REG_FRAMES);
     counters->dropped = read_word(device, DEGS_REG_DROPPED);
 }

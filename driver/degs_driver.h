@@ -86,8 +86,10 @@ typedef struct degs_counters {
     uint64_t cycles, load_cycles;
     uint64_t bytes_read, bytes_written;
     uint64_t fragments;
-    uint32_t frames;  /* so far */
-    uint32_t dropped; /* Gaussians that cannot be drawn */
+    uint64_t frame_energy; /* nJ, without the memory */
+    uint64_t idle_energy;  /* nJ, leakage between the frame before and this one */
+    uint32_t frames;       /* so far */
+    uint32_t dropped;      /* Gaussians that cannot be drawn */
 } degs_counters;
 
 /* An access that the memory has refused. */
@@ -147,6 +149,9 @@ uint32_t degs_acknowledge(const degs_device *device);
 /* Why the last frame was not rendered, or cannot be trusted: DEGS_ERROR_CODE_NONE (0) if it is in the frame buffer, else
  * another code of ERROR_CODE or one of DEGS_RESULT_. */
 uint32_t degs_error(const degs_device *device);
+
+/* Whether the supply is gated while no frame is being rendered: 1 or 0. It is not after power-on and a reset. */
+void degs_gate_idle(const degs_device *device, int gated);
 
 /* Bytes of workspace that the last frame needed. A frame with a workspace of 0 bytes ends at once with
  * DEGS_ERROR_CODE_SMALL_WORKSPACE, and asks for nothing else. */

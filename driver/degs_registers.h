@@ -6,7 +6,7 @@
 
 #define DEGS_REGISTER_BYTES             0x214u /* size of the register window */
 #define DEGS_ID_VALUE                   0x53476544u /* what ID holds */
-#define DEGS_VERSION_VALUE              0x00010003u /* what VERSION holds */
+#define DEGS_VERSION_VALUE              0x00010004u /* what VERSION holds */
 #define DEGS_BASE_ALIGNMENT             64u /* of all addresses, bytes */
 
 #define DEGS_REG_ID                     0x000u /* the bytes "DeGS" */
@@ -114,6 +114,8 @@
 
 #define DEGS_REG_DROPPED                0x134u /* of the last frame: Gaussians that no renderer can draw */
 
+#define DEGS_REG_FRAME_ENERGY           0x138u /* 2 words: of the last frame, nJ: what its blocks have done, and leakage over CYCLES; without the memory */
+
 #define DEGS_REG_VIEW_COUNT             0x140u /* views in the table, up to 64; 0: FRAME_BUFFER and the registers from WIDTH to ORIGIN_Y describe the one view */
 
 #define DEGS_REG_VIEW                   0x144u /* drawn view, from 0 on, of which the registers from VIEW_SCALE on tell whose names begin with VIEW */
@@ -157,6 +159,11 @@
 #define DEGS_FAULT_STREAM_GROUP_LISTS_READ 13u /* lists of groups, read */
 
 #define DEGS_REG_FAULT_ANSWER           0x18Cu /* the answer of the bus to it */
+
+#define DEGS_REG_IDLE_ENERGY            0x190u /* 2 words: of the last frame, nJ: leakage before it, from the end of the frame before, or from power-on or reset on */
+
+#define DEGS_REG_POWER                  0x198u /* power states */
+#define DEGS_POWER_GATE_IDLE            (1u << 0) /* the supply is gated while no frame is being rendered */
 
 #define DEGS_REG_VIEW_SHOWN             0x200u /* 4 words: first column and row, width and height of what it shows of the image, in pixels of the image, with what finer levels show */
 

@@ -14,6 +14,15 @@ namespace degs {
 
 class AcceleratorCore;
 
+/// What a platform that scales clock and voltage gives an accelerator. The model knows no voltages:
+/// the factors are against the energy of the design as its configuration states it. Dynamic energy
+/// follows about the square of the voltage.
+struct OperatingPoint {
+    sc_core::sc_time period;   ///< of the clock
+    double energy_factor = 1;  ///< of dynamic energy, not negative
+    double leakage_factor = 1; ///< of the power that leaks, not negative
+};
+
 /// Any accelerator of the project as a module of a platform, with registers, a memory socket and an
 /// interrupt. docs/accelerator.md has the register map and the memory layout.
 ///
@@ -28,9 +37,9 @@ class AcceleratorCore;
 /// A reset or an abort cuts the blocks off the bus and lets them hurry through the rest of the
 /// frame: no block knows of it, and all are then where they are between frames.
 ///
-/// Not modelled: power states, and the values of splat records and lists, which are written to the
-/// workspace as bytes without meaning. The host keeps the present frame and the one before it,
-/// about 200 B per visible splat each.
+/// Not modelled: the values of splat records and lists, which are written to the workspace as bytes
+/// without meaning. The host keeps the present frame and the one before it, about 200 B per visible
+/// splat each.
 class Accelerator : public sc_core::sc_module {
 public:
     using Options = AcceleratorOptions;
@@ -46,8 +55,8 @@ public:
     OptionalPort<sc_core::sc_signal_inout_if<bool>> irq;
     /// Low: reset. Takes effect at once, whatever the clock does.
     OptionalPort<sc_core::sc_signal_in_if<bool>> reset_n;
-    /// An sc_clock, whose period and rising edges take the place of `clock_ghz`. Its period must
-    /// not change, and it is not gated.
+    /// An sc_clock, whose period and rising edges take the place of `clock_ghz`. That period is
+    /// fixed for its life, and it is not gated.
     OptionalPort<sc_core::sc_signal_in_if<bool>> clk;
 
     /// Copies `design` and makes the copy read scenes of floats. What is wrong with it, with the
@@ -59,8 +68,16 @@ public:
                 const Options& options = {});
     ~Accelerator() override;
 
-    /// GHz; that of the bound clock, if any, from the end of elaboration on.
+    /// GHz; that of the bound clock, if any, from the end of elaboration on, and that of the
+    /// operating point.
     double clock_ghz() const;
+    /// Changes clock and energy between frames. May be called at any time. While a frame is being
+    /// rendered (STATUS bit 0) it takes effect at its end, else at once; a start meanwhile waits
+    /// for it, as after a reset. The last of several calls counts. With `clk` bound, the period
+    /// must be that of the clock. What cannot be is refused as reports::kPower.
+    void set_operating_point(const OperatingPoint& point);
+    /// The one in effect.
+    const OperatingPoint& operating_point() const;
     /// The state that registers show: busy, in_reset, irq, status, irq_enable, irq_status,
     /// error_code, frames and the low word of cycles, below name().
     void trace(sc_core::sc_trace_file* file) const override;

@@ -47,6 +47,8 @@ struct AcceleratorOptions {
     /// The largest limit on the Gaussians of a scene, whose geometry then takes 44 GiB. Indices
     /// have 32 bits.
     static constexpr std::uint32_t kMostGaussians = 1U << 30U;
+    /// The largest Power::wake_ns, a second.
+    static constexpr double kMostWakeNs = 1e9;
 
     struct Limits {
         std::uint32_t gaussians = kMostGaussians; ///< of a scene, at least 1
@@ -73,10 +75,19 @@ struct AcceleratorOptions {
         Pacing pacing = Pacing::Exact; ///< AT is exact
     };
 
+    /// The supply while no frame is rendered, if software has it gated (register POWER). [assumed]:
+    /// power switches are said to cut leakage to a tenth or a fiftieth, and what a supply takes to
+    /// come back is the platform's.
+    struct Power {
+        double gated_leakage = 0.05; ///< share of the leakage that is left, 0 to 1
+        double wake_ns = 0;          ///< from a start to the frame, 0 to 1e9
+    };
+
     Limits limits;
     Fidelity fidelity = Fidelity::Exact;
     bool antialiased = false; ///< what the files of its scenes say, see MemoryScene
     Memory memory;
+    Power power;
     Timeline* timeline =
         nullptr; ///< for programs built from the sources; must outlive the accelerator
 

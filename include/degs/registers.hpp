@@ -43,6 +43,7 @@ enum class Register : std::uint32_t {
     WorkspaceNeeded = 0x128,
     Frames = 0x130,
     Dropped = 0x134,
+    FrameEnergy = 0x138,
     ViewCount = 0x140,
     View = 0x144,
     Views = 0x148,
@@ -58,14 +59,16 @@ enum class Register : std::uint32_t {
     FaultAddress = 0x180,
     FaultStream = 0x188,
     FaultAnswer = 0x18C,
+    IdleEnergy = 0x190,
+    Power = 0x198,
     ViewShown = 0x200,
     ViewEntry = 0x210,
 };
 constexpr std::uint32_t kRegisterBytes = 0x214;
 constexpr std::uint32_t kAcceleratorId = 0x53476544; ///< "DeGS" as bytes
-constexpr std::uint32_t kAcceleratorVersion = 0x00010003;
+constexpr std::uint32_t kAcceleratorVersion = 0x00010004;
 
-// Bits of Control, Status, and of IrqEnable and IrqStatus.
+// Bits of Control, Status, of IrqEnable and IrqStatus, and of Power.
 constexpr std::uint32_t kControlStart = 1U << 0U;
 constexpr std::uint32_t kControlClearError = 1U << 1U;
 constexpr std::uint32_t kControlReset = 1U << 2U;
@@ -82,6 +85,7 @@ constexpr std::uint32_t kIrqDone = 1U << 0U;
 constexpr std::uint32_t kIrqError = 1U << 1U;
 constexpr std::uint32_t kIrqAborted = 1U << 2U;
 constexpr std::uint32_t kIrqFault = 1U << 3U;
+constexpr std::uint32_t kPowerGateIdle = 1U << 0U;
 
 enum class FrameFormat : std::uint32_t { Rgba8 = 0, Rgba16F = 1 };
 

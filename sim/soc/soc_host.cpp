@@ -222,6 +222,7 @@ SocFrame SocHost::render() {
     frame.bytes_read = counters.bytes_read;
     frame.bytes_written = counters.bytes_written;
     frame.fragments = counters.fragments;
+    frame.energy_nj = counters.frame_energy;
     frame.views = in_table_ ? drawn_views() : std::vector<degs_drawn_view>{only_view(target)};
     check_pixels(frame);
     return frame;

@@ -20,6 +20,7 @@ namespace degs::sim {
 /// A frame as the driver of the accelerator saw it.
 struct SocFrame {
     std::uint64_t cycles = 0, bytes_read = 0, bytes_written = 0, fragments = 0;
+    std::uint64_t energy_nj = 0;        ///< without the memory, see FRAME_ENERGY
     double latency_ns = 0;              ///< start written to interrupt seen
     std::vector<degs_drawn_view> views; ///< whose pixels are in memory
 };

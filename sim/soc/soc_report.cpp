@@ -86,6 +86,7 @@ nlohmann::ordered_json point_json(const SocRequest& request, const SocPoint& p) 
                                 {"bytes_read", mean_over(p, &SocFrame::bytes_read)},
                                 {"bytes_written", mean_over(p, &SocFrame::bytes_written)},
                                 {"fragments", mean_over(p, &SocFrame::fragments)},
+                                {"energy_nj", mean_over(p, &SocFrame::energy_nj)},
                                 {"frames", nlohmann::ordered_json::array()}};
     for (const SocFrame& frame : p.frames) {
         json["frames"].push_back({{"latency_ns", frame.latency_ns}, {"cycles", frame.cycles}});

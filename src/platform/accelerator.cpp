@@ -33,6 +33,14 @@ double Accelerator::clock_ghz() const {
     return core_->config().clock_ghz;
 }
 
+void Accelerator::set_operating_point(const OperatingPoint& point) {
+    core_->set_operating_point(point);
+}
+
+const OperatingPoint& Accelerator::operating_point() const {
+    return core_->operating_point();
+}
+
 void Accelerator::trace(sc_core::sc_trace_file* file) const {
     core_->trace(file);
 }

@@ -43,13 +43,22 @@ void AcceleratorCore::transport(tlm::tlm_generic_payload& payload, sc_core::sc_t
     if (status == tlm::TLM_OK_RESPONSE) {
         const auto offset = static_cast<std::uint32_t>(payload.get_address());
         if (payload.is_read()) {
-            word_to(registers_.word(offset), payload.get_data_ptr());
+            word_to(read(offset), payload.get_data_ptr());
         } else {
             status = write(offset, word_from(payload.get_data_ptr()), delay);
         }
         delay += time_.clock.period();
     }
     payload.set_response_status(status);
+}
+
+// The energy of a frame is worked out anew with its low word.
+std::uint32_t AcceleratorCore::read(std::uint32_t offset) {
+    if (offset == AcceleratorRegisters::offset_of(Register::FrameEnergy) &&
+        (registers_.get(Register::Status) & kStatusBusy) == 0) {
+        show_energy();
+    }
+    return registers_.word(offset);
 }
 
 // Writes a register. The value can be read at once; what the write starts happens from its date on.
@@ -68,14 +77,20 @@ tlm::tlm_response_status AcceleratorCore::write(std::uint32_t offset, std::uint3
         const bool clears = info->access == Access::WriteOneToClear;
         registers_.set_word(offset,
                             clears ? registers_.word(offset) & ~value : value & info->bits());
-        show_view();
-        irq_changed_.notify(delay);
+        written(offset, delay);
     }
     return tlm::TLM_OK_RESPONSE;
 }
 
-// A start samples the registers here and not at its date: a decoupled processor may write those of
-// the next frame in the same quantum.
+// What follows from a new value of a register. The supply of a frame is not gated.
+void AcceleratorCore::written(std::uint32_t offset, const sc_core::sc_time& delay) {
+    show_view();
+    irq_changed_.notify(delay);
+    if (offset == AcceleratorRegisters::offset_of(Register::Power) && !started_) {
+        meter_.gate(gates_idle(), sc_core::sc_time_stamp() + delay);
+    }
+}
+
 void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay) {
     if ((bits & kControlReset) != 0) {
         request_stop(Stop::Reset, delay);
@@ -99,22 +114,30 @@ void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay)
             registers_.set(Register::ErrorDetail, 0);
         }
     }
-    if ((bits & kControlStart) == 0) {
-        return;
-    }
-    if (busy) {
+    if ((bits & kControlStart) != 0 && busy) {
         set_status(kStatusStartIgnored, 0);
-        return;
+    } else if ((bits & kControlStart) != 0) {
+        start(delay);
     }
+}
+
+// A start samples the registers here and not at its date: a decoupled processor may write those of
+// the next frame in the same quantum. A gated supply comes back first.
+void AcceleratorCore::start(const sc_core::sc_time& delay) {
+    const bool faulted = (registers_.get(Register::Status) & kStatusFaulted) != 0;
     set_status(kStatusBusy, kStatusDone | kStatusError | kStatusAborted);
     registers_.set(Register::ErrorCode, 0);
     registers_.set(Register::ErrorDetail, 0);
-    if ((status & kStatusFaulted) == 0) { // else a read that the frame before did not wait for
+    if (!faulted) { // else a read that the frame before did not wait for
         clear_fault();
     }
     request_ = AcceleratorRequest::read(registers_, options_.limits);
     started_ = true;
     start_date_ = sc_core::sc_time_stamp() + delay;
+    meter_.gate(false, start_date_);
+    if (gates_idle()) {
+        start_date_ += sc_core::sc_time(options_.power.wake_ns, sc_core::SC_NS);
+    }
     work_.notify(sc_core::SC_ZERO_TIME);
 }
 
@@ -129,7 +152,7 @@ unsigned int AcceleratorCore::debug(tlm::tlm_generic_payload& payload) {
     for (; done < bytes && first + done < kRegisterBytes; done += 4) {
         const auto offset = static_cast<std::uint32_t>(first + done);
         if (payload.is_read()) {
-            word_to(registers_.word(offset), payload.get_data_ptr() + done);
+            word_to(read(offset), payload.get_data_ptr() + done);
             continue;
         }
         const RegisterInfo* const info = AcceleratorRegisters::find(offset);
@@ -137,8 +160,7 @@ unsigned int AcceleratorCore::debug(tlm::tlm_generic_payload& payload) {
             break;
         }
         registers_.set_word(offset, word_from(payload.get_data_ptr() + done) & info->bits());
-        show_view();
-        irq_changed_.notify(sc_core::SC_ZERO_TIME);
+        written(offset, sc_core::SC_ZERO_TIME);
     }
     return done;
 }

@@ -2,6 +2,7 @@
 #include "platform/accelerator_core.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include "degs/error.hpp"
@@ -41,7 +42,8 @@ AcceleratorCore::AcceleratorCore(Accelerator& shell, const AcceleratorConfig& co
       mapping_(checked_period()), time_{ClockDomain(mapping_), options.fidelity, options.timeline},
       self_(time_),
       finished_("finished", time_, kFinishedDepth, config_->frame_end.gate_latency_cycles),
-      gateway_("gateway", options.memory, time_.clock) {
+      gateway_("gateway", options.memory, time_.clock), meter_(*config_, options.power) {
+    point_.period = mapping_.period();
     gateway_.out.bind(shell_.mem);
     gateway_.observe_scene(
         [this](std::uint64_t address, const unsigned char* data, std::uint64_t bytes) {
@@ -103,9 +105,14 @@ void AcceleratorCore::clear_fault() {
 }
 
 // A start or a stop may have come before this process first ran, and its date may still be ahead.
+// A change of the operating point goes before a start, since it was asked for before it.
 void AcceleratorCore::await_command() {
     for (;;) {
         const bool stops = stop_ != Stop::None;
+        if (changes_ && !stops) {
+            change_point();
+            continue;
+        }
         const sc_core::sc_time due = stops ? stop_date_ : start_date_;
         const sc_core::sc_time now = sc_core::sc_time_stamp();
         if (!started_ && !stops) {
@@ -141,6 +148,8 @@ void AcceleratorCore::end_frame(const AcceleratorFault& fault) {
     registers_.set(Register::ErrorCode, static_cast<std::uint32_t>(fault.error));
     registers_.set(Register::ErrorDetail, fault.detail);
     set_status(fault ? kStatusError : kStatusDone, kStatusBusy);
+    meter_.gate(gates_idle(), sc_core::sc_time_stamp());
+    changes_ = asked_.has_value();
     registers_.set(Register::IrqStatus,
                    registers_.get(Register::IrqStatus) | (fault ? kIrqError : kIrqDone));
     irq_changed_.notify(sc_core::SC_ZERO_TIME);
@@ -153,6 +162,8 @@ AcceleratorFault AcceleratorCore::prepare() {
         registers_.set_pair(counter, 0);
     }
     registers_.set(Register::Dropped, 0);
+    meter_.forget_frame();
+    show_energy();
     shown_.clear();
     show_view();
     if (request_.fault) {
@@ -262,6 +273,7 @@ AcceleratorFault AcceleratorCore::render() {
     scene_changed_ = false;
     self_.advance_to(time_.clock.ceil(sc_core::sc_time_stamp()));
     const Cycle started = self_.local();
+    meter_.begin_frame(*engine_, time_.clock.at(started));
     join_frame();
     std::vector<Cycle> finished; // of each view
     while (finished.size() < drawn_.size()) {
@@ -317,11 +329,19 @@ void AcceleratorCore::count_frame(const std::vector<Cycle>& finished, const Memo
     }
     shown_ = drawn_;
     show_view();
+    meter_.end_frame(finished.back(), time_.clock.at(self_.local()));
+    show_energy();
     registers_.set_pair(Register::Cycles, finished.back());
     registers_.set_pair(Register::BytesRead, after.bytes_read - before.bytes_read);
     registers_.set_pair(Register::BytesWritten, after.bytes_written - before.bytes_written);
     registers_.set_pair(Register::Fragments, fragments);
     registers_.set(Register::Frames, registers_.get(Register::Frames) + 1);
+}
+
+void AcceleratorCore::show_energy() {
+    const auto whole = [](double nj) { return static_cast<std::uint64_t>(std::llround(nj)); };
+    registers_.set_pair(Register::FrameEnergy, whole(meter_.frame_nj(*engine_)));
+    registers_.set_pair(Register::IdleEnergy, whole(meter_.idle_nj()));
 }
 
 // What the registers from VIEWS_DRAWN on say of the view that VIEW selects.

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "degs/accelerator.hpp"
 #include "modules/kit/accelerator/render_engine.hpp"
 #include "platform/accelerator_request.hpp"
+#include "platform/energy_meter.hpp"
 #include "platform/memory_gateway.hpp"
 #include "platform/scene_copy.hpp"
 
@@ -20,12 +22,16 @@ public:
                     const AcceleratorOptions& options);
 
     /// The configuration. From the end of elaboration on it has the frequency of the bound clock,
-    /// if there is one.
+    /// if there is one, and that of the operating point.
     const AcceleratorConfig& config() const { return *config_; }
     /// The frames that are kept, the last one included.
     const RenderJob& job() const { return job_; }
     /// Completes the timeline before it is read, once nothing is left to happen.
     void complete_timeline();
+
+    /// Accelerator says what these functions do.
+    void set_operating_point(const OperatingPoint& point);
+    const OperatingPoint& operating_point() const { return point_; }
 
     // The shell forwards its callbacks and processes to these functions.
     void end_of_elaboration();
@@ -46,17 +52,27 @@ private:
     const AcceleratorOptions& checked(const AcceleratorOptions& options) const;
     sc_core::sc_time checked_period() const;
     void follow_clock();
+    void check(const OperatingPoint& point) const;
+    std::optional<OperatingPoint> take_asked();
+    void set_point(const OperatingPoint& point);
+    void change_point();
     static tlm::tlm_response_status check_access(const tlm::tlm_generic_payload& payload);
     tlm::tlm_response_status write(std::uint32_t offset, std::uint32_t value,
                                    const sc_core::sc_time& delay);
+    std::uint32_t read(std::uint32_t offset);
+    void written(std::uint32_t offset, const sc_core::sc_time& delay);
     void command(std::uint32_t bits, const sc_core::sc_time& delay);
+    void start(const sc_core::sc_time& delay);
+    bool gates_idle() const { return (registers_.get(Register::Power) & kPowerGateIdle) != 0; }
     void await_command();
 
     /// Why the present frame, if there is one, is given up.
     enum class Stop { None, Abort, Reset };
     void request_stop(Stop why, const sc_core::sc_time& delay);
     void end_stop();
+    void cut_off();
     void await_rest();
+    void go_on(const std::optional<OperatingPoint>& point);
     bool held_in_reset() const { return shell_.reset_n.size() != 0 && !shell_.reset_n->read(); }
 
     AcceleratorFault serve();
@@ -69,6 +85,7 @@ private:
     void join_frame();
     void drop_images();
     void count_frame(const std::vector<Cycle>& finished, const MemoryTraffic& before);
+    void show_energy();
     void show_view();
     void end_frame(const AcceleratorFault& fault);
     void set_status(std::uint32_t set, std::uint32_t clear);
@@ -96,7 +113,11 @@ private:
     DatedFifo<std::uint32_t> finished_;
     MemoryGateway gateway_;
     std::unique_ptr<RenderEngine> engine_;
-    bool started_ = false; // a start waits for its date, or is being served
+    EnergyMeter meter_;
+    OperatingPoint point_;                // in effect
+    std::optional<OperatingPoint> asked_; // by the platform, and not in effect yet
+    bool changes_ = false;                // asked_ does not wait for a frame
+    bool started_ = false;                // a start waits for its date, or is being served
     Stop stop_ = Stop::None;
     sc_core::sc_time start_date_, stop_date_; // which may lie ahead of the kernel's time
     sc_core::sc_event work_;                  // wakes run(), which looks for what is due

@@ -44,6 +44,17 @@ const AcceleratorOptions& AcceleratorCore::checked(const AcceleratorOptions& opt
         refuse(reports::kOptions, shell_.name(),
                "a limit of more than 2^30 Gaussians is more than a scene may have");
     }
+    const AcceleratorOptions::Power& power = options.power;
+    if (!(power.gated_leakage >= 0 && power.gated_leakage <= 1)) {
+        refuse(reports::kOptions, shell_.name(),
+               "power.gated_leakage is " + std::to_string(power.gated_leakage) +
+                   ", but a share is from 0 to 1");
+    }
+    if (!(power.wake_ns >= 0 && power.wake_ns <= AcceleratorOptions::kMostWakeNs)) {
+        refuse(reports::kOptions, shell_.name(),
+               "power.wake_ns is " + std::to_string(power.wake_ns) +
+                   ", but must be from 0 to a second");
+    }
     if (const std::string wrong = MemoryGateway::problem(options.memory); !wrong.empty()) {
         refuse(reports::kOptions, shell_.name(), wrong);
     }
@@ -73,6 +84,10 @@ void AcceleratorCore::end_of_elaboration() {
     if (shell_.clk.size() != 0) {
         follow_clock();
     }
+    if (const std::optional<OperatingPoint> point = take_asked()) {
+        check(*point);
+        set_point(*point);
+    }
 }
 
 void AcceleratorCore::follow_clock() {
@@ -90,6 +105,7 @@ void AcceleratorCore::follow_clock() {
                                        : clock->period() * (1.0 - clock->duty_cycle());
     mapping_.follow(clock->period(), clock->start_time() + first);
     config_->clock_ghz = 1e-9 / clock->period().to_seconds();
+    point_.period = clock->period();
 }
 
 void AcceleratorCore::start_of_simulation() {

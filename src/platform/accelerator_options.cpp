@@ -67,6 +67,12 @@ void describe(AcceleratorOptions& options, ConfigVisitor& visitor) {
     visitor.choice("pacing", options.memory.pacing, {"exact", "quantum", "annotated"},
                    "when accesses are issued");
     visitor.end_section();
+    visitor.begin_section("power", "the supply that software has gated while no frame is rendered");
+    visitor.real("gated_leakage", options.power.gated_leakage, 0, 1,
+                 "share of the leakage that is left [assumed]");
+    visitor.real("wake_ns", options.power.wake_ns, 0, AcceleratorOptions::kMostWakeNs,
+                 "ns; from a start to the frame [assumed]");
+    visitor.end_section();
 }
 
 void AcceleratorOptions::visit(KeyVisitor& visitor) {

@@ -155,6 +155,9 @@ std::vector<RegisterInfo> rows() {
         {R::Frames, 1, "FRAMES", r,
          "frames rendered so far, those with a bus error or a changed scene included"},
         {R::Dropped, 1, "DROPPED", r, "of the last frame: Gaussians that no renderer can draw"},
+        {R::FrameEnergy, 2, "FRAME_ENERGY", r,
+         "of the last frame, nJ: what its blocks have done, and leakage over `CYCLES`; without the "
+         "memory"},
         {R::ViewCount, 1, "VIEW_COUNT", rw,
          "views in the table, up to 64; 0: `FRAME_BUFFER` and the registers from `WIDTH` to "
          "`ORIGIN_Y` describe the one view"},
@@ -181,6 +184,16 @@ std::vector<RegisterInfo> rows() {
          "of the access that has faulted, or of the last one; 0 after a start"},
         {R::FaultStream, 1, "FAULT_STREAM", r, "its stream", {}, streams()},
         {R::FaultAnswer, 1, "FAULT_ANSWER", r, "the answer of the bus to it"},
+        {R::IdleEnergy, 2, "IDLE_ENERGY", r,
+         "of the last frame, nJ: leakage before it, from the end of the frame before, or from "
+         "power-on or reset on"},
+        {R::Power,
+         1,
+         "POWER",
+         rw,
+         "power states",
+         {{"GATE_IDLE", bit_of(kPowerGateIdle),
+           "the supply is gated while no frame is being rendered"}}},
         {R::ViewShown, 4, "VIEW_SHOWN", r,
          "first column and row, width and height of what it shows of the image, in pixels of the "
          "image, with what finer levels show"},

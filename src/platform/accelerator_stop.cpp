@@ -20,6 +20,7 @@ constexpr std::uint64_t kRestInterval = 128;
 void AcceleratorCore::request_stop(Stop why, const sc_core::sc_time& delay) {
     if (why == Stop::Reset) {
         registers_ = AcceleratorRegisters();
+        meter_.restart(sc_core::sc_time_stamp() + delay);
         shown_.clear();
         set_status(kStatusInReset, 0);
     }
@@ -41,9 +42,14 @@ void AcceleratorCore::begin_stop() {
     if (stop_date_ > sc_core::sc_time_stamp()) { // the first activation, or a change of reset_n
         return;
     }
+    cut_off();
+    work_.notify(sc_core::SC_ZERO_TIME);
+}
+
+// From now on the platform sees nothing more of what blocks still do.
+void AcceleratorCore::cut_off() {
     gateway_.detach();
     mapping_.hurry();
-    work_.notify(sc_core::SC_ZERO_TIME);
 }
 
 // Waits until all blocks rest and the last transaction is answered, so that the platform hears no
@@ -63,17 +69,26 @@ void AcceleratorCore::await_rest() {
     }
 }
 
+// The blocks rest: the clock goes on, at `point` if there is one.
+void AcceleratorCore::go_on(const std::optional<OperatingPoint>& point) {
+    gateway_.attach();
+    if (point) {
+        set_point(*point);
+    }
+    if (const sc_core::sc_time edge = mapping_.resume(); edge > sc_core::sc_time_stamp()) {
+        sc_core::wait(edge - sc_core::sc_time_stamp());
+    }
+}
+
 void AcceleratorCore::end_stop() {
     do {
         await_command(); // the frame may have ended before the date of the stop
         begin_stop();
         await_rest();
-        gateway_.attach();
-        if (const sc_core::sc_time edge = mapping_.resume(); edge > sc_core::sc_time_stamp()) {
-            sc_core::wait(edge - sc_core::sc_time_stamp());
-        }
+        go_on(take_asked());
     } while (gateway_.detached()); // once more
     job_.first_since_reset = static_cast<std::uint32_t>(job_.frames.size());
+    meter_.gate(gates_idle(), sc_core::sc_time_stamp());
     if (stop_ == Stop::Reset) {
         set_status(0, kStatusInReset);
     } else {

@@ -28,7 +28,8 @@ public:
     ClockMapping& operator=(const ClockMapping&) = delete;
     ~ClockMapping() = default;
 
-    /// Follows the edges of another clock from its first one on; before the simulation starts.
+    /// Follows the edges of another clock from its first one on: before the simulation starts, or
+    /// right before resume().
     void follow(const sc_core::sc_time& period, const sc_core::sc_time& first_edge);
     /// From now on a cycle takes two units of kernel time, the fewest that keep the two halves of a
     /// cycle apart. Sleeping processes are woken, so that they sleep to the new times.

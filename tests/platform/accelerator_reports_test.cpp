@@ -94,6 +94,8 @@ constexpr WrongOptions kWrongOptions[] = {
      "memory.burst_bytes is 0"},
     {"ABoundWithoutBursts", [](auto& o) { o.memory.lt_outstanding = 4; },
      "memory.burst_bytes is 0"},
+    {"MoreLeakageThanThereIs", [](auto& o) { o.power.gated_leakage = 2; }, "power.gated_leakage"},
+    {"ASupplyThatNeverComesBack", [](auto& o) { o.power.wake_ns = NAN; }, "power.wake_ns"},
     {"NoPixels", [](auto& o) { o.limits.pixels = 0; }, "limits"},
     {"NoGaussians", [](auto& o) { o.limits.gaussians = 0; }, "limits"},
     {"TooManyGaussians",
@@ -199,6 +201,10 @@ TEST(SmallRunAcceleratorOptions, AreKeys) {
     options.set("limits.gaussians", "1073741824");
     EXPECT_EQ(options.limits.gaussians, 1U << 30U);
     EXPECT_THROW(options.set("memory.transport", "axi"), InputError);
+    options.set("power.gated_leakage", "0.125");
+    EXPECT_EQ(options.power.gated_leakage, 0.125);
+    EXPECT_THROW(options.set("power.gated_leakage", "1.5"), InputError);
+    EXPECT_THROW(options.set("power.wake_ns", "-1"), InputError);
 }
 
 /// Ends a response that it has not begun.

@@ -50,6 +50,7 @@ TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
         {DEGS_REG_WORKSPACE_NEEDED, R::WorkspaceNeeded},
         {DEGS_REG_FRAMES, R::Frames},
         {DEGS_REG_DROPPED, R::Dropped},
+        {DEGS_REG_FRAME_ENERGY, R::FrameEnergy},
         {DEGS_REG_VIEW_COUNT, R::ViewCount},
         {DEGS_REG_VIEW, R::View},
         {DEGS_REG_VIEWS, R::Views},
@@ -65,6 +66,8 @@ TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
         {DEGS_REG_FAULT_ADDRESS, R::FaultAddress},
         {DEGS_REG_FAULT_STREAM, R::FaultStream},
         {DEGS_REG_FAULT_ANSWER, R::FaultAnswer},
+        {DEGS_REG_IDLE_ENERGY, R::IdleEnergy},
+        {DEGS_REG_POWER, R::Power},
         {DEGS_REG_VIEW_SHOWN, R::ViewShown},
         {DEGS_REG_VIEW_ENTRY, R::ViewEntry},
     };
@@ -85,6 +88,7 @@ TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
     EXPECT_EQ(DEGS_CONTROL_RESUME, kControlResume);
     EXPECT_EQ(DEGS_STATUS_FAULTED, kStatusFaulted);
     EXPECT_EQ(DEGS_IRQ_STATUS_FAULT, kIrqFault);
+    EXPECT_EQ(DEGS_POWER_GATE_IDLE, kPowerGateIdle);
     EXPECT_EQ(DEGS_FAULT_STREAM_FRAME_BUFFER,
               static_cast<std::uint32_t>(RequestStream::FrameBuffer));
     EXPECT_EQ(DEGS_ERROR_CODE_OUT_OF_MEMORY,
@@ -162,7 +166,13 @@ TEST(SmallRunDriver, RendersTheFrameOfTheRegistersAndReportsErrors) {
         EXPECT_EQ(degs_wait(&device), DEGS_ERROR_CODE_NONE);
         EXPECT_EQ(degs_acknowledge(&device), DEGS_IRQ_STATUS_DONE); // of this frame alone
         EXPECT_EQ(degs_acknowledge(&device), 0U);
+        degs_gate_idle(&device, 1);
+        EXPECT_EQ(host.read(Register::Power), kPowerGateIdle);
+        degs_gate_idle(&device, 0);
+        EXPECT_EQ(host.read(Register::Power), 0U);
         degs_read_counters(&device, &counters);
+        EXPECT_EQ(counters.frame_energy, host.read_pair(Register::FrameEnergy));
+        EXPECT_EQ(counters.idle_energy, host.read_pair(Register::IdleEnergy));
     };
     std::uint64_t cycles = 0;
     written.host.script = [&](Host& host) {
@@ -176,6 +186,7 @@ TEST(SmallRunDriver, RendersTheFrameOfTheRegistersAndReportsErrors) {
     EXPECT_EQ(counters.cycles, cycles);
     EXPECT_EQ(counters.frames, 1U);
     EXPECT_GT(counters.fragments, 0U);
+    EXPECT_GT(counters.frame_energy, 0U);
     EXPECT_EQ(counters.dropped, 0U);
 }
 

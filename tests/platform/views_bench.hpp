@@ -144,6 +144,12 @@ public:
     std::vector<Cycle> finished; ///< of each drawn view
     PlainMemory memory;
     const Image& image(std::size_t view) const { return job_.images[view]; }
+    /// What a run reports of them, when nothing is left to happen.
+    AcceleratorResult result() const {
+        AcceleratorResult result;
+        engine_->collect(result);
+        return result;
+    }
     std::uint64_t fragments(std::size_t view) const {
         std::uint64_t sum = 0;
         for (const std::uint32_t updates : image(view).fragments) {

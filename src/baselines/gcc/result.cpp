@@ -14,8 +14,9 @@ void Engine::collect(AcceleratorResult& result) const {
     result.tiles_cancelled = sum_of(monitors_, &TileMonitor::Stats::tiles_cancelled);
     collect_slots(result);
     if (grouping_) {
-        for (std::size_t f = 0; f < result.frames.size(); ++f) {
-            result.frames[f].preprocessed = grouping_->frames_grouped()[f];
+        const KeptList<Cycle>& dates = grouping_->frames_grouped();
+        for (std::size_t f = dates.first(); f < result.frames.size(); ++f) {
+            result.frames[f].preprocessed = dates[f];
         }
     }
     collect_stages(result);

@@ -221,6 +221,9 @@ void Degs::explain_ports(AcceleratorResult& result) const {
 }
 
 void Degs::collect(AcceleratorResult& result) const {
+    for (const auto& bank : blocks_.banks) {
+        bank->count_totals();
+    }
     collect_frames(result, job_, blocks_.pixel_buffers, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = sum_of(blocks_.monitors, &TileMonitor::Stats::tiles_cancelled);

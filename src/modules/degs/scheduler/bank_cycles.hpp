@@ -14,8 +14,8 @@ namespace degs {
 
 /// The cycles of an Issue Bank with its Packing Unit, in one loop over little data, because they
 /// are half of a run. A waiting segment is a mask and a few words; where packets need only be
-/// counted (PackingUnit::counts()), none is made, and what follows from totals is counted at the
-/// end.
+/// counted (PackingUnit::counts()), none is made, and what follows from totals is counted by
+/// count_totals().
 ///
 /// In cycle t the bank takes terminations and freed contexts dated <= t, accepts segments, issues
 /// segments, and ends tiles; a bank with select_cycles then chooses the segments of a later cycle.
@@ -46,6 +46,8 @@ public:
     BankCycles& operator=(const BankCycles&) = delete;
     /// Runs the bank until the job is over.
     void run();
+    /// Counts what follows from totals up to now. Segments that wait count as issued.
+    void count_totals();
 
 private:
     /// By what the loop over cycles chooses the domain that issues next.
@@ -301,6 +303,7 @@ private:
     Cycle contexts_from_ = 0;    // none of them comes before
     // Tasks taken in, and of the segments dropped.
     std::uint64_t segments_in_ = 0, inside_ = 0, useful_ = 0;
+    SlotAccount counted_; // by count_totals()
     IssueTrace* trace_;
     BankLog* log_;
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep

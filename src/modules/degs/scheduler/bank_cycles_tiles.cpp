@@ -351,7 +351,25 @@ void BankCycles::take_end(BankStream& stream, TileNumber number) {
     spans_from_ = 0;
 }
 
-// All tasks that came in have been issued or dropped. A useful task is never dropped.
+// All tasks that came in have been issued or dropped, if nothing waits. A useful task is never
+// dropped.
+void BankCycles::count_totals() {
+    stats_.segments_issued = segments_in_ - stats_.segments_dropped;
+    stats_.tasks_issued = stats_.tasks_in - stats_.tasks_dropped;
+    if (!counts_) {
+        return;
+    }
+    SlotAccount executed, more;
+    executed[Slot::Useful] = useful_;
+    executed[Slot::Boundary] = stats_.tasks_issued - inside_;
+    executed[Slot::Terminated] = inside_ - useful_;
+    for (const Slot slot : {Slot::Useful, Slot::Boundary, Slot::Terminated}) {
+        more[slot] = executed[slot] - counted_[slot];
+    }
+    counted_ = executed;
+    slice_->count_replayed(more);
+}
+
 void BankCycles::finish() {
     now_ = self_.local();
     packing_.send_due(self_, Slot::Starved);
@@ -359,15 +377,7 @@ void BankCycles::finish() {
     if (config_.granted) {
         packing_.end_tile(self_, kNoTile, 0);
     }
-    stats_.segments_issued = segments_in_ - stats_.segments_dropped;
-    stats_.tasks_issued = stats_.tasks_in - stats_.tasks_dropped;
-    if (counts_) {
-        SlotAccount executed;
-        executed[Slot::Useful] = useful_;
-        executed[Slot::Boundary] = stats_.tasks_issued - inside_;
-        executed[Slot::Terminated] = inside_ - useful_;
-        slice_->count_replayed(executed);
-    }
+    count_totals();
     self_.finish();
 }
 

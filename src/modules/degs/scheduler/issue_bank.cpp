@@ -72,6 +72,12 @@ void IssueBank::start_of_simulation() {
         trace_, tile_log_ ? &*tile_log_ : nullptr});
 }
 
+void IssueBank::count_totals() {
+    if (cycles_ != nullptr) { // the simulation has started
+        cycles_->count_totals();
+    }
+}
+
 void IssueBank::run() {
     cycles_->run();
 }

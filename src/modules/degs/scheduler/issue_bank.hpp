@@ -118,6 +118,8 @@ public:
     /// Logs spans and ends of tiles taken, ended pixels and contexts seen, segments issued,
     /// packets.
     void log_to(EventLog& log) override { log_ = &log; }
+    /// Brings stats() and the slots of the array slice up to now; the end of the job does, too.
+    void count_totals();
     const Stats& stats() const { return stats_; }
     const FeatureBuffer& features() const { return features_; }
 

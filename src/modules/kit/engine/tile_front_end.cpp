@@ -109,8 +109,9 @@ void TileFrontEnd::collect(AcceleratorResult& result) const {
     if (!binner_) {
         return;
     }
-    for (std::size_t f = 0; f < result.frames.size(); ++f) {
-        result.frames[f].preprocessed = binner_->frames_binned()[f];
+    const KeptList<Cycle>& binned = binner_->frames_binned();
+    for (std::size_t f = binned.first(); f < result.frames.size(); ++f) {
+        result.frames[f].preprocessed = binned[f];
     }
     result.binning_cycles = ratio_of(binner_->stats().pairs, binner_->config().pairs_per_cycle);
     using P = ProjectionUnit::Stats;
