@@ -276,9 +276,9 @@ nlohmann::json of_two(const Folder& folder, const std::vector<std::string>& qos,
                                    "--accelerator",
                                    config("gscore-64"),
                                    "--scene",
-                                   "synthetic:object,gaussians=20000",
+                                   "synthetic:object,gaussians=1500",
                                    "--width",
-                                   "320",
+                                   "160",
                                    "--refresh",
                                    "0",
                                    "--memory",
@@ -313,10 +313,10 @@ TEST(SmallRunSoc, SharesOfAcceleratorsFollowTheirLevels) {
         const auto& both = written["points"][1];
         EXPECT_EQ(alone["others"][0]["frames"], 0);
         EXPECT_EQ(alone["others"][0]["gb_per_s"], 0.0);
-        EXPECT_GE(both["others"][0]["frames"], 2);
+        EXPECT_GE(both["others"][0]["frames"], 1);
         EXPECT_EQ(both["others"][0]["frames"],
                   both["others"][0]["late_frames"]); // of a period of 1 ns
-        EXPECT_EQ(both["bytes_read"], alone["bytes_read"]);
+        EXPECT_EQ(both["fragments"], alone["fragments"]);
         // Mean, longest and late frames once more from the frames themselves.
         double sum = 0, longest = 0;
         int late = 0;
@@ -364,7 +364,7 @@ TEST(SmallRunSoc, AcceleratorsOfSeveralFamiliesDrawSideBySide) {
                          "--deadline",
                          "1e5",
                          "--refresh",
-                         "2000",
+                         "1000",
                          "--display-qos",
                          "15",
                          "--cores-qos",
@@ -375,12 +375,13 @@ TEST(SmallRunSoc, AcceleratorsOfSeveralFamiliesDrawSideBySide) {
                          "1",
                          "--out",
                          folder / "soc"}));
-    expect_success(degs({"run", config("degs-16"), "--scene", scene, "--width", "96", "--no-cache",
-                         "--out", folder / "run"}));
+    expect_success(degs({"soc", config("degs-16"), "--scene", scene, "--width", "96", "--load", "0",
+                         "--out", folder / "alone"}));
+    const auto alone = nlohmann::json::parse(read_file(folder / "alone/soc.json"));
     const auto written = nlohmann::json::parse(read_file(folder / "soc/soc.json"));
-    EXPECT_GT(written["psnr_db"], 45.0);
+    EXPECT_EQ(written["psnr_db"], alone["psnr_db"]);
     const auto& point = written["points"][0];
-    EXPECT_EQ(point["fragments"], report_in(folder / "run")["timing"]["fragments"]);
+    EXPECT_EQ(point["fragments"], alone["points"][0]["fragments"]);
     EXPECT_EQ(point["late_frames"], 0);
     ASSERT_EQ(written["others"].size(), 2U);
     EXPECT_EQ(written["others"][0]["name"], "gcc-16");
