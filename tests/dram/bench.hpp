@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "degs/request_info.hpp"
 #include "dram/lpddr5.hpp"
 #include "tests/dram/fixture.hpp"
 #include "tests/tlm/memory_fixture.hpp"
@@ -34,6 +35,7 @@ public:
     };
     tlm_utils::simple_initiator_socket<AtInitiator> out;
     std::vector<Request> requests;
+    unsigned qos = 0; ///< of all requests
     Ending ending = Ending::Completed;
     std::uint64_t response_ps = 0; ///< BEGIN_RESP to END_RESP
     int outstanding_most = 0;
@@ -60,6 +62,9 @@ private:
             }
             auto* payload = new tlm::tlm_generic_payload(this);
             payload->acquire();
+            auto* info = new RequestInfo; // which goes with the payload
+            info->qos = qos;
+            payload->set_extension(info);
             request.data.resize(request.bytes);
             Initiator::fill(*payload,
                             request.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND,

@@ -211,12 +211,54 @@ private:
     std::vector<std::unique_ptr<test::Script>> scripts_;
 };
 
+/// Two AT initiators with as many random reads, which they send as fast as they are taken.
+class AtContest : public sc_core::sc_module {
+public:
+    AtContest(const sc_core::sc_module_name& name, std::vector<unsigned> qos)
+        : sc_core::sc_module(name),
+          bench_(test::lpddr5_config("lpddr5-6400x256", {"waiting_requests=256"}), qos.size(), 0) {
+        for (std::size_t i = 0; i < qos.size(); ++i) {
+            std::mt19937 random(static_cast<unsigned>(i) + 1);
+            bench_.at[i]->qos = qos[i];
+            bench_.at[i]->requests.resize(4000);
+            for (test::AtInitiator::Request& request : bench_.at[i]->requests) {
+                request.bytes = 256;
+                request.address = std::uint64_t{below(random, 1U << 20U)} * 256;
+            }
+        }
+    }
+    /// ns at which the last read of an initiator was answered.
+    double end_ns(std::size_t initiator) const {
+        std::uint64_t last = 0;
+        for (const test::AtInitiator::Request& request : bench_.at[initiator]->requests) {
+            EXPECT_EQ(request.answers, 1);
+            last = std::max(last, request.answered_ps);
+        }
+        return static_cast<double>(last) / 1000;
+    }
+
+private:
+    test::Lpddr5Bench bench_;
+};
+
+// The memory is the same for all of them, so the later end is, too; the sooner one is half of it at
+// best.
+TEST(Lpddr5Qos, AHigherLevelEndsSoonerInFourPhases) {
+    const AtContest equal("equal", {3, 3}), next("next", {4, 3}), far("far", {15, 0});
+    sc_core::sc_start();
+    EXPECT_NEAR(equal.end_ns(0), equal.end_ns(1), 0.02 * equal.end_ns(1));
+    EXPECT_LT(next.end_ns(0), 0.9 * next.end_ns(1));
+    EXPECT_LT(far.end_ns(0), 0.7 * far.end_ns(1));
+    EXPECT_GT(far.end_ns(0), 0.48 * far.end_ns(1));
+    EXPECT_NEAR(far.end_ns(1), equal.end_ns(1), 0.05 * equal.end_ns(1));
+}
+
 // Equal levels get equal shares, a higher one gets more, the more the higher it is, and none
 // starves.
 TEST(Lpddr5Qos, SharesFollowTheLevels) {
     const Contest equal("equal", {3, 3}), next("next", {4, 3}), far("far", {15, 0}),
         swapped("swapped", {0, 15}), beyond("beyond", {4000, 0});
-    sc_core::sc_start(sc_core::sc_time(100, sc_core::SC_US));
+    sc_core::sc_start(sc_core::sc_time(30, sc_core::SC_US));
     EXPECT_NEAR(equal.share(), 0.5, 0.01);
     EXPECT_GT(next.share(), 0.55);
     EXPECT_GT(far.share(), next.share());
