@@ -34,7 +34,7 @@ public:
     SocHost& host(std::size_t accelerator) { return *hosts_[accelerator]; }
     /// The display, which shows nothing until show() is called.
     Display& display() { return *display_; }
-    /// Of the first accelerator.
+    /// Completes the timeline of the first accelerator.
     void complete_timeline() { accelerators_.front()->core().complete_timeline(); }
     void set_load(double gb_per_s);
     std::uint64_t cpu_bytes() const;

@@ -44,7 +44,7 @@ struct SocRequest {
     std::vector<FoveatedView> images;         ///< of a frame; empty: the camera of the view
     std::optional<Foveation> foveation;       ///< of each image
 
-    /// Of the accelerator that is measured.
+    /// The design that is measured.
     const RunConfig& config() const { return accelerators.front().config; }
 };
 

@@ -176,7 +176,7 @@ public:
                                                [this, i, level = qos[i]] { read(i, level); }));
         }
     }
-    /// Of all reads, those of the first.
+    /// The part of all reads that the first has.
     double share() const {
         const auto reads = [this](std::size_t i) {
             return static_cast<double>(bench_.memory.stats(i).reads);
