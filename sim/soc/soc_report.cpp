@@ -105,11 +105,16 @@ nlohmann::ordered_json point_json(const SocRequest& request, const SocPoint& p) 
     return json;
 }
 
-/// Cells on the traffic of the cores; empty if nobody asked for any, but for another accelerator.
+/// False if nobody asked for traffic of the cores, but for another accelerator.
+bool shows_cores(const SocRequest& request) {
+    return request.accelerators.size() == 1 ||
+           std::any_of(request.loads.begin(), request.loads.end(),
+                       [](double load) { return load > 0; });
+}
+
+/// Cells on the traffic of the cores.
 std::vector<std::string> core_cells(const SocRequest& request, const SocPoint& p) {
-    const bool idle = std::all_of(request.loads.begin(), request.loads.end(),
-                                  [](double load) { return load == 0; });
-    if (idle && request.accelerators.size() > 1) {
+    if (!shows_cores(request)) {
         return {"", ""};
     }
     return {decimal_text(p.offered_gb_per_s), three_digits(p.cpu_gb_per_s)};
@@ -213,7 +218,7 @@ std::string soc_words(const SocRequest& request, const View& view, const SocResu
     const std::string heading =
         names(request) + " · " + view.scene.name + " · " + frame_words(request, view, result) +
         " · " + request.memory.name + ", " + three_decimals(request.memory.peak_gb_per_s()) +
-        " GB/s · " + std::to_string(request.cores) + " cores" +
+        " GB/s" + (shows_cores(request) ? " · " + std::to_string(request.cores) + " cores" : "") +
         (many ? " · deadline " + three_digits(request.deadline_ms) + " ms" : "");
     return visible(heading) + "\n" + table.text() + "pixels  the same under every load · " +
            three_digits(result.psnr_db) + " dB against double precision, 8 bits per channel\n" +
