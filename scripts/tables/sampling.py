@@ -86,20 +86,27 @@ def coverage():
 
 
 def within_runs():
-    """By design and resolution: [exact report, [report by error]] of the close-ups."""
-    found = yield {(name, size): [[run(name, scene, f"--camera 2 --resolution {size}", runs=1),
-                                   [run(name, scene, f"--camera 2 --resolution {size} --within {error}%", runs=1)
+    """By design and resolution: [exact report, [report by error]] of the close-ups; times are the least of three."""
+    found = yield {(name, size): [[run(name, scene, f"--camera 2 --resolution {size}", runs=3),
+                                   [run(name, scene, f"--camera 2 --resolution {size} --within {error}%", runs=3)
                                     for error in ERRORS]] for scene in FIVE]
                    for name in ("degs-64", "gscore-64") for size in ("1080p", "4k")}
     return found
 
 
+def times(exact, reports):
+    """Times of runs over that of the exact one. A run of a second takes up to half as long again now and then."""
+    def least(report):
+        return min(host.run_s for host in report.runs)
+
+    return [least(report) / least(exact) for report in reports]
+
+
 def medians(views):
     """(share of the tiles, time over that of the exact run) by error, over views that are sampled at all."""
-    sampled = [(exact, reports) for exact, reports in views if all(map(is_sampled, reports))]
-    return len(sampled), [(median(r[i]["sampling"]["tiles_simulated"] / r[i]["sampling"]["tiles"] for _, r in sampled),
-                           median(r[i].host.run_s / exact.host.run_s for exact, r in sampled))
-                          for i in range(len(ERRORS))] if sampled else []
+    sampled = [(reports, times(exact, reports)) for exact, reports in views if all(map(is_sampled, reports))]
+    return len(sampled), [(median(r[i]["sampling"]["tiles_simulated"] / r[i]["sampling"]["tiles"] for r, _ in sampled),
+                           median(t[i] for _, t in sampled)) for i in range(len(ERRORS))] if sampled else []
 
 
 @table(PAGE)
@@ -109,7 +116,7 @@ def within_cost():
     rows = []
     for (name, size), views in found.items():
         count, cells = medians(views)
-        longest = max(report.host.run_s / exact.host.run_s for exact, reports in views for report in reports)
+        longest = max(time for exact, reports in views for time in times(exact, reports))
         rows.append([f"{name}, {size}", f"{count} of {len(views)}",
                      *([f"{tiles:.2f}, {time:.2f}" for tiles, time in cells] or [""] * len(ERRORS)), f"{longest:.2f}"])
     return markdown(["design", "views", *(f"±{error} %: tiles, time" for error in ERRORS), "longest of all"], rows)

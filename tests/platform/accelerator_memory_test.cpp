@@ -6,15 +6,28 @@
 #include <filesystem>
 #include <new>
 
-#include <malloc.h>
-
+#include "base/sanitizers.hpp"
 #include "degs/design.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
+// B that are allocated and not given back. What the process has resident would also depend on the
+// allocator and on the pages of the program that the operating system keeps.
+#if DEGS_ADDRESS_SANITIZER
+#include <sanitizer/allocator_interface.h>
+
 namespace {
-/// B that `new` has given and `delete` has not taken back. What the process has resident would also
-/// depend on the allocator and on the pages of the program that the operating system keeps.
+std::uint64_t bytes_in_use() {
+    return __sanitizer_get_current_allocated_bytes();
+}
+} // namespace
+#else
+#include <malloc.h>
+
+namespace {
 std::atomic<std::uint64_t> allocated_bytes{0};
+std::uint64_t bytes_in_use() {
+    return allocated_bytes;
+}
 
 void* counted(void* memory) {
     if (memory == nullptr) {
@@ -49,6 +62,7 @@ void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
 void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
     give_back(memory);
 }
+#endif
 
 namespace degs::test {
 namespace {
@@ -101,9 +115,9 @@ void SmallRunMemory::expect_stays() {
         for (int f = 0; f < kFrames; ++f) {
             render(host, f);
             ASSERT_LE(job.frames.size() - job.frames.first(), 2U) << "frame " << f;
-            early = f + 1 == kFirst ? allocated_bytes.load() : early;
+            early = f + 1 == kFirst ? bytes_in_use() : early;
         }
-        late = allocated_bytes.load();
+        late = bytes_in_use();
     };
     sc_core::sc_start();
     ASSERT_TRUE(p.host.finished);
