@@ -10,8 +10,8 @@
 #include "degs/design.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
-// B that are allocated and not given back. What the process has resident would also depend on the
-// allocator and on the pages of the program that the operating system keeps.
+// bytes_in_use() counts what is allocated and not given back. Resident bytes would not do: they
+// also depend on the allocator, and on the pages of the program that the operating system keeps.
 #if DEGS_ADDRESS_SANITIZER
 #include <sanitizer/allocator_interface.h>
 

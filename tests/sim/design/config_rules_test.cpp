@@ -347,6 +347,9 @@ TEST(ConfigAdvice, NamesIdleKeys) {
     }
     EXPECT_EQ(warnings_of("gbu-64", {"monitor.cancel=false", "monitor.latency_cycles=9"}).size(),
               1U);
+    EXPECT_EQ(warnings_of("degs-64", {"memory.model=lpddr5", "memory.lpddr5.controller.qos_step=9"})
+                  .size(),
+              1U);
     EXPECT_EQ(warnings_of("gcc-64", {"colour.skip_ended=false", "colour.block=16",
                                      "colour.feedback_cycles=9"})
                   .size(),

@@ -29,6 +29,9 @@ void MainMemoryConfig::describe(ConfigVisitor& visitor) {
     for (const char* key : {"bandwidth_gb_per_s", "latency_ns", "access_bytes"}) {
         visitor.unused(key, "model", kReason);
     }
+    visitor.unused("lpddr5.controller.qos_step", "model",
+                   "all reads of an accelerator have the same level; memories of platforms have "
+                   "several initiators");
 }
 
 } // namespace degs
