@@ -55,7 +55,7 @@ public:
         rows_ += std::max(1.0, static_cast<double>(rows) * tile.row_weight());
     }
     TileCycles end(const CoarseTile& tile) override {
-        TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
+        TileCycles cycles = model_.front_end_cycles(tile, tile.walked(), rows_);
         cycles.slots = rows_ * model_.config().tile_size;
         cycles.busy[Analytic::kBlending] = rows_ / model_.engines();
         cycles.time = std::max(rows_, cycles.time);

@@ -173,7 +173,8 @@ ordered_json analytic_json(const AnalyticRun& run) {
     json["sample"] = {{"tiles", frame.tiles},
                       {"tiles_drawn", frame.drawn},
                       {"rows_apart", frame.rows_apart},
-                      {"carrying_tiles", frame.carrying_tiles}};
+                      {"carrying_tiles", frame.carrying_tiles},
+                      {"standard_error", frame.drawing_error}};
     if (!run.what_if.empty()) {
         json["what_if"] = what_if_json(run.what_if);
     }

@@ -10,7 +10,7 @@ namespace degs::sim {
 /// estimates look at the same tiles, so that most of their errors cancel; measured
 /// (docs/analytic.md).
 inline double change_half_width(double share) {
-    constexpr double kLeast = 0.01, kOfShare = 0.3;
+    constexpr double kLeast = 0.01, kOfShare = 0.2;
     return kLeast + kOfShare * std::abs(share);
 }
 

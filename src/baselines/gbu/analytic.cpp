@@ -18,8 +18,8 @@ public:
     }
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
     CoarseTile::Options coarse_options() const override { return {config_.tile_size, 1}; }
-    // A tile waits for its slowest row, so that many rows must be looked at.
-    Blocks blocks() const override { return {1, std::max(1, config_.tile_size / 16)}; }
+    // A tile waits for its slowest row, so that all must be looked at.
+    Blocks blocks() const override { return {}; }
     int engines() const override { return config_.engines.count; }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override {
@@ -31,7 +31,7 @@ public:
                config_.engines.row_pe_latency;
     }
     int pes() const override { return config_.pes(); }
-    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.03, 0.14}; }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0, 0.07}; }
     std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
                                          const TileCycles& tiles) const override {
         Work work;
@@ -125,7 +125,7 @@ TileCycles Clock::end(const CoarseTile& tile) {
     for (const RowPe& pe : pes_) {
         last = std::max(last, pe.free);
     }
-    TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
+    TileCycles cycles = model_.front_end_cycles(tile, tile.walked(), last);
     cycles.counts[Analytic::kEntries] = entries_ * tile.row_weight();
     cycles.slots = slots_ * tile.row_weight();
     cycles.busy[Analytic::kGeneration] = busy_ / model_.engines();

@@ -41,14 +41,16 @@ public:
     }
     double visits_per_entry() const override { return 3; } // neighbours
     int engines() const override { return config_.clusters; }
-    double places() const override { return 4.0 * config_.listed_gaussians(); }
+    Places places() const override {
+        return {std::size_t{4} * config_.projection.groups_ahead, 1.0 * config_.projection.group};
+    }
     double memory_latency() const override { return memory_.latency; }
     TileCycles background(double pixels) const override {
         return memory_.writes(pixels * config_.traffic.pixel_bytes, kMemory);
     }
     double latency() const override { return 6 * memory_.latency; }
     int pes() const override { return config_.pes(); }
-    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.06, 0.07}; }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.04, 0.055}; }
 
     enum Unit : std::size_t { kGrouping, kProjection, kColour, kBlending, kMemory };
     const Config& config() const { return config_; }

@@ -24,7 +24,7 @@ public:
     }
     // Rows only tell when a sub-tile is done; two of each are enough.
     Blocks blocks() const override { return {1, config_.array.side() / 2}; }
-    double visits_per_entry() const override { return 3; } // boxes
+    double visits_per_entry() const override { return 3; } // sub-tiles of a splat
     int engines() const override { return config_.clusters; }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double walked) const override {
@@ -34,7 +34,7 @@ public:
     }
     double latency() const override { return 4 * memory_latency() + config_.array.pipeline_cycles; }
     int pes() const override { return config_.pes(); }
-    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.07, 0.06}; }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.015, 0.085}; }
     std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
                                          const TileCycles& tiles) const override {
         std::vector<cost::Activity> all = front().activity(before, tiles);
@@ -123,8 +123,9 @@ SubtileMask Clock::named(const CoarseTile& tile, SubtileMask among) {
         return grid_.meeting(box_of(tile.splat()), tile.x(), tile.y(), among);
     case SubtileTest::Exact: {
         SubtileMask mask = 0;
-        for (const CoarseSpan& span : tile.spans()) {
-            mask |= grid_.of_pixels(span.row, {span.first, span.last});
+        for (int row = tile.first_row(); row <= tile.last_row(); ++row) { // sampled or not
+            const CoarseSpan span = tile.span_of(row);
+            mask |= span.length() > 0 ? grid_.of_pixels(row, {span.first, span.last}) : 0;
         }
         return mask & among;
     }
@@ -149,7 +150,7 @@ void Clock::splat(const CoarseTile& tile) {
 }
 
 TileCycles Clock::end(const CoarseTile& tile) {
-    TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
+    TileCycles cycles = model_.front_end_cycles(tile, tile.walked(), passes_ + scans_);
     cycles.slots = passes_ * model_.config().array.lanes;
     cycles.busy[Analytic::kBlending] = (passes_ + scans_) / model_.engines();
     cycles.time = std::max(passes_ + scans_, cycles.time);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ORANGE without simulation: a batch takes the array a product and the vector unit its coefficients
-// and pixels, and a tile is left after the batch in which its pixels end. See docs/analytic.md.
+// ORANGE without simulation: batches go to and fro between the vector unit and the array, and a
+// tile is left after the batch in which its pixels end. See docs/analytic.md.
 #include <algorithm>
 #include <cmath>
 
+#include "baselines/orange/batch_dates.hpp"
 #include "baselines/orange/config.hpp"
 #include "modules/kit/analytic/front_end_load.hpp"
 
@@ -37,7 +38,7 @@ public:
                                                         config_.tile_area()));
     }
     int pes() const override { return config_.pes(); }
-    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.05, 0.06}; }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.035, 0.055}; }
     std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
                                          const TileCycles& tiles) const override {
         Work work;
@@ -61,13 +62,14 @@ private:
 
 class Clock : public TileClock {
 public:
-    explicit Clock(const Analytic& model) : model_(model) {}
+    explicit Clock(const Analytic& model) : model_(model), core_(model.config()) {}
     void begin(const CoarseTile&) override {}
     void splat(const CoarseTile&) override {}
     TileCycles end(const CoarseTile& tile) override;
 
 private:
     const Analytic& model_;
+    BatchDates core_;
 };
 
 std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload&) const {
@@ -80,32 +82,31 @@ TileCycles Clock::end(const CoarseTile& tile) {
     const double entries = tile.entries();
     const double batch = config.fetching.chunk;
     const double seen = vector.termination == Termination::None ? entries : tile.walked();
-    const double blended = std::min(entries, std::ceil(seen / batch) * batch);
+    const double batches = std::ceil(seen / batch);
+    const double blended = std::min(entries, batches * batch);
     const auto of_batches = [&](double splats, const auto& cycles) {
         const double whole = std::floor(splats / batch);
         return whole * double(cycles(config.fetching.chunk)) +
                double(cycles(int(std::lround(splats - whole * batch))));
     };
-    const double blending = of_batches(blended, [&](int splats) {
-        return vector.coefficient_cycles(splats) +
-               vector.blend_cycles(std::uint64_t{1} * splats * config.tile_area());
-    });
-    const auto product = [&](int splats) {
-        return config.cores.array.cycles(splats, config.tile_area());
-    };
-    // Products that are made while the last one is blended are for nothing; an array that is faster
-    // than the vector unit fills its places for them.
-    const double ahead =
-        batch *
-        (of_batches(blended, product) > blending ? 1 : 1 + config.scratchpad.product_batches);
-    const double formed = std::min(entries, blended + ahead);
-    const double array = of_batches(formed, product);
-    TileCycles cycles = model_.front_end_cycles(tile, formed);
-    cycles.slots = formed * config.tile_area() * kGemmDepth;
+    const BatchDates::Tile core =
+        core_.tile(static_cast<std::size_t>(entries), static_cast<std::size_t>(batches));
+    TileCycles cycles = model_.front_end_cycles(tile, core.formed, core.cycles);
+    cycles.slots = core.formed * config.tile_area() * kGemmDepth;
     cycles.fragments *= kGemmDepth;
-    cycles.busy[Analytic::kArray] = array / model_.engines();
-    cycles.busy[Analytic::kVector] = blending / model_.engines();
-    cycles.time = std::max({array, blending, cycles.time});
+    cycles.busy[Analytic::kArray] =
+        of_batches(
+            core.formed,
+            [&](int splats) { return config.cores.array.cycles(splats, config.tile_area()); }) /
+        model_.engines();
+    cycles.busy[Analytic::kVector] =
+        of_batches(blended,
+                   [&](int splats) {
+                       return vector.coefficient_cycles(splats) +
+                              vector.blend_cycles(std::uint64_t{1} * splats * config.tile_area());
+                   }) /
+        model_.engines();
+    cycles.time = std::max(core.cycles, cycles.time);
     return cycles;
 }
 

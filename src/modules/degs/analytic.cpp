@@ -34,6 +34,7 @@ public:
         const int banks = std::gcd(config_.scheduler.banks, config_.span.count);
         return {1, std::max(1, banks / std::max(kLeastBanks, banks / 2)), 1, banks};
     }
+    double visit_cost() const override { return 3; }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override {
         return degs::sort_cycles(config_.sorting, entries, front());
@@ -41,7 +42,7 @@ public:
     int engines() const override { return config_.all_streams(); }
     double latency() const override;
     int pes() const override { return config_.pes(); }
-    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.06, 0.07}; }
+    std::optional<EstimateErrors> errors() const override { return EstimateErrors{0.03, 0.065}; }
     std::vector<cost::Activity> activity(const FrameWorkload& frame,
                                          const PreparationCycles& before,
                                          const TileCycles& tiles) const override;
@@ -366,7 +367,9 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
     post(over, tile.pixels() * model_.front().traffic.pixel_bytes);
     ++tiles_;
     const double weight = tile.row_weight();
-    TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
+    const double behind = std::max(done - sliced_, 0.0); // cycles of the banks behind the last row
+    const double alone = sliced_ + behind - last_end_;
+    TileCycles cycles = model_.front_end_cycles(tile, tile.walked(), alone);
     cycles.slots = weight * tasks_;
     // Every module of a stream takes each splat.
     cycles.counts[DegsAnalytic::kSlices] =
@@ -383,9 +386,8 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
     cycles.busy[DegsAnalytic::kPacking] = weight * segments_ / config_.scheduler.issue_width /
                                           (config_.clusters * config_.scheduler.banks);
     cycles.busy[DegsAnalytic::kBlending] = cycles.slots / config_.pes();
-    const double behind = std::max(done - sliced_, 0.0); // cycles of the banks behind the last row
     cycles.time = with_other_streams(
-        std::max(sliced_ + behind - last_end_, cycles.time),
+        std::max(alone, cycles.time),
         config_.clusters * *std::max_element(cycles.busy.begin() + DegsAnalytic::kSpan,
                                              cycles.busy.begin() + DegsAnalytic::kMemory));
     last_time_ = cycles.time;

@@ -73,14 +73,16 @@ TEST_P(Analytic, IsNearTheSimulation) {
     const json exact = json::parse(read_file(folder / "out/report.json"));
     const json estimate = analytic_of(analytic_config(GetParam()), kAnalyticView);
     const double cycles = cycles_of(exact);
-    EXPECT_NEAR(cycles_of(estimate), cycles, 0.25 * cycles);
-    EXPECT_NEAR(estimate["slots"]["utilization"], exact["slots"]["utilization"], 0.25);
+    EXPECT_NEAR(cycles_of(estimate), cycles, 0.1 * cycles);
+    const double before = exact["timing"]["preprocessing_cycles"];
+    EXPECT_NEAR(estimate["timing"]["preprocessing_cycles"], before, 0.1 * before);
+    EXPECT_NEAR(estimate["slots"]["utilization"], exact["slots"]["utilization"], 0.1);
     const double bytes =
         exact["dram"]["bytes_read"].get<double>() + exact["dram"]["bytes_written"].get<double>();
-    EXPECT_NEAR(estimate["dram"]["bytes"], bytes, 0.3 * bytes);
+    EXPECT_NEAR(estimate["dram"]["bytes"], bytes, 0.16 * bytes); // without GBU's reuse cache
     for (const char* part : {"nj_per_frame", "dynamic_nj", "leakage_nj", "dram_nj"}) {
         const double energy = exact["energy"][part];
-        EXPECT_NEAR(estimate["energy"][part], energy, 0.25 * energy) << part;
+        EXPECT_NEAR(estimate["energy"][part], energy, 0.12 * energy) << part;
     }
     EXPECT_EQ(estimate["energy"]["blocks"].size(), exact["energy"]["blocks"].size());
     EXPECT_EQ(estimate["workload"]["tile_pairs"], exact["workload"]["tile_pairs"]);
@@ -93,6 +95,10 @@ TEST_P(Analytic, LiesBetweenItsBounds) {
     EXPECT_GE(report["timing"]["upper_cycles"], report["timing"]["lower_cycles"]);
     EXPECT_TRUE(report["units"].contains(report["limited_by"].get<std::string>()));
     EXPECT_LE(report["slots"]["utilization"], 1);
+    const json& sample = report["sample"];
+    const double error = sample["standard_error"];
+    EXPECT_LT(error, 0.2);
+    EXPECT_EQ(error == 0, sample["tiles_drawn"] == sample["tiles"]) << error;
 }
 
 TEST_P(Analytic, IsTheSameEveryTime) {
@@ -125,16 +131,53 @@ TEST_P(Analytic, TakesAnEmptyFrameAndASinglePixel) {
           std::vector<std::string>{"--scene", "synthetic:object,gaussians=1", "--width", "2000"}}) {
         const json report = analytic_of(analytic_config(GetParam()), view);
         EXPECT_GT(cycles_of(report), 0);
-        EXPECT_LT(cycles_of(report), 1e6);
+        EXPECT_LT(cycles_of(report), 1e7);
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Designs, Analytic,
                          testing::Values("degs-64", "degs-64-tuned", "gscore-64", "gbu-64",
-                                         "gcc-64"),
+                                         "gcc-64", "orange-o1"),
                          [](const auto& design) {
                              std::string name = design.param;
                              std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+class AnalyticChange : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+// Estimates of both designs rest on the same tiles.
+TEST_P(AnalyticChange, GainsWhatRunsGain) {
+    const auto& [design, change] = GetParam();
+    const Folder folder;
+    const auto cycles_with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{
+            "run",   analytic_config(design), "--no-reference", "--no-cache",
+            "--out", folder / "out"};
+        arguments.insert(arguments.end(), kAnalyticView.begin(), kAnalyticView.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expect_success(degs(arguments));
+        return cycles_of(json::parse(read_file(folder / "out/report.json")));
+    };
+    const double after = cycles_with({"--set", change});
+    const double before = cycles_with({"--what-if", change});
+    const json estimate = json::parse(read_file(folder / "out/report.json"))["what_if"][0];
+    EXPECT_NEAR(estimate["change"], after / before - 1, 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Changes, AnalyticChange,
+                         testing::Values(std::pair{"degs-64", "span.count=16"},
+                                         std::pair{"degs-64", "slicing.count=1"},
+                                         std::pair{"gscore-64", "array.subtile_skip=exact"},
+                                         std::pair{"orange-o1", "cores.array.fill=none"},
+                                         std::pair{"gbu-64", "engines.queue_depth=1"},
+                                         std::pair{"gbu-64", "engines.count=4"},
+                                         std::pair{"gcc-64", "memory.bandwidth_gb_per_s=25.6"}),
+                         [](const auto& change) {
+                             std::string name = change.param.first + "_" + change.param.second;
+                             std::replace_if(
+                                 name.begin(), name.end(),
+                                 [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
                              return name;
                          });
 
@@ -145,6 +188,26 @@ TEST(AnalyticCommand, FollowsTheSizeOfTheArray) {
             cycles_of(analytic_of(analytic_config("degs-" + size), kAnalyticView));
         EXPECT_LT(cycles, before) << size;
         before = cycles;
+    }
+}
+
+// Now memory, now projection and now binning are the slowest in this scene.
+TEST(AnalyticCommand, PreparesAsASimulationDoes) {
+    const std::vector<std::string> view{"--scene", "synthetic:object,gaussians=60000", "--width",
+                                        "640"};
+    for (const std::string rate : {"51.2", "409.6"}) {
+        const Folder folder;
+        std::vector<std::string> more = view;
+        more.insert(more.end(), {"--set", "memory.bandwidth_gb_per_s=" + rate});
+        std::vector<std::string> arguments{
+            "run",         analytic_config("gscore-64"), "--no-reference", "--no-cache", "--out",
+            folder / "out"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expect_success(degs(arguments));
+        const json exact = json::parse(read_file(folder / "out/report.json"))["timing"];
+        const json estimate = analytic_of(analytic_config("gscore-64"), more)["timing"];
+        const double cycles = exact["preprocessing_cycles"];
+        EXPECT_NEAR(estimate["preprocessing_cycles"], cycles, 0.03 * cycles) << rate;
     }
 }
 

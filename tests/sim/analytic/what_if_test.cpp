@@ -59,7 +59,7 @@ TEST(WhatIf, GivesTheEstimatesOfTheChangedDesigns) {
             EXPECT_DOUBLE_EQ(before, estimate_with({}));
             EXPECT_DOUBLE_EQ(after, estimate_with(changes[c])) << changes[c].front();
             EXPECT_DOUBLE_EQ(list[c]["change"], after / before - 1);
-            const double width = 0.01 + 0.3 * std::abs(after / before - 1);
+            const double width = 0.01 + 0.2 * std::abs(after / before - 1);
             EXPECT_DOUBLE_EQ(list[c]["change_interval"][0], after / before - 1 - width);
             EXPECT_DOUBLE_EQ(list[c]["change_interval"][1], after / before - 1 + width);
         }

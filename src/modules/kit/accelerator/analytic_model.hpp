@@ -87,6 +87,8 @@ public:
         int height = 1, most_apart = 1, step = 1, most_fitted = 0;
     };
     virtual Blocks blocks() const = 0;
+    /// Host time of the clock for a row of a splat, relative to that of most clocks.
+    virtual double visit_cost() const { return 1; }
     /// Host time of the clock for a splat without a sampled row, relative to that of most clocks.
     virtual double visits_per_entry() const { return 1; }
     /// Units that sort lists, in turn; 0: lists come sorted.
@@ -104,8 +106,13 @@ public:
     /// Whether lists are granted to engines in turn when they are complete, as the Tile Dispatcher
     /// does; else splats are fetched while their list is being sorted.
     virtual bool grants_lists() const { return engines() > 1; }
-    /// Splats that are fetched while those of the tile before are in work.
-    virtual double places() const { return 0; }
+    /// Chunks of splats that a fetcher may have, those in work among them, and splats of a chunk;
+    /// without an answer a list is one chunk.
+    struct Places {
+        std::size_t chunks = 1;
+        double splats = 1e9;
+    };
+    virtual Places places() const { return {}; }
     /// Tiles in work side by side; each is given to the first one that is free.
     virtual int engines() const { return 1; }
     virtual double memory_latency() const = 0; ///< cycles

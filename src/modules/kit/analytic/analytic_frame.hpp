@@ -36,7 +36,9 @@ struct AnalyticFrame {
     std::size_t drawn = 0;                ///< of them, the tiles that the estimate rests on
     int rows_apart = 1;                   ///< one block of their rows in so many
     double carrying_tiles = 0; ///< tiles of equal times that would scatter as the tiles do
-    double busiest = 0;        ///< share of the rendering cycles that `limited_by` is busy
+    double drawing_error =
+        0;              ///< standard error of the cycles, relative to them, from drawing tiles
+    double busiest = 0; ///< share of the rendering cycles that `limited_by` is busy
     std::optional<CycleInterval> interval; ///< of the cycles; empty if the model was not measured
 };
 

@@ -2,6 +2,9 @@
 #include "modules/kit/analytic/frame_schedule.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "modules/kit/analytic/ring_dates.hpp"
 
 namespace degs {
 
@@ -36,14 +39,43 @@ struct Sorter {
     }
 };
 
+/// A Splat Fetcher, which is as far ahead of what is in work as it has places for chunks.
+class Fetcher {
+public:
+    explicit Fetcher(const AnalyticModel::Places& places)
+        : splats_(places.splats), chunks_(places.chunks), free_(places.chunks) {}
+    /// When the first chunk of the next list may be asked for.
+    double ready() const { return free_.oldest(); }
+    /// A list of `entries` is in work from `begin` to `over`, which takes the first `walked`. The
+    /// fetcher learns then that nobody takes the others, for which it has filled its places.
+    void take(double entries, double walked, double begin, double over) {
+        const double all = std::ceil(entries / splats_);
+        const double taken = std::ceil(std::min(walked, entries) / splats_);
+        for (double chunk = 1; chunk <= taken; ++chunk) {
+            free_.replace_oldest(begin + (over - begin) * chunk / taken);
+        }
+        const double left = std::min(all - taken, static_cast<double>(chunks_));
+        for (double chunk = 0; chunk < left; ++chunk) {
+            free_.replace_oldest(over);
+        }
+    }
+
+private:
+    double splats_;
+    std::size_t chunks_;
+    RingDates free_;
+};
+
 } // namespace
 
 double schedule(const AnalyticModel& model, const std::vector<ScheduledTile>& tiles,
                 UnitCycles used) {
     const bool grants = model.grants_lists();
     std::vector<Sorter> sorters(std::max(model.sorters(), 1));
-    std::vector<double> fetcher_free(sorters.size(), 0);
-    std::vector<double> engine_free(model.engines(), 0), engine_fetches(model.engines(), 0);
+    // A fetcher follows each sorter, or each engine has its own.
+    std::vector<Fetcher> fetchers(grants ? model.engines() : sorters.size(),
+                                  Fetcher(model.places()));
+    std::vector<double> engine_free(model.engines(), 0);
     double granted = 0; ///< the tile before
     double end = *std::max_element(used.begin(), used.end());
     for (std::size_t t = 0; t < tiles.size(); ++t) {
@@ -52,18 +84,16 @@ double schedule(const AnalyticModel& model, const std::vector<ScheduledTile>& ti
         Sorter& sorter = sorters[t % sorters.size()];
         const auto sort = model.sort_cycles(tile.entries, cycles.walked);
         auto engine = std::min_element(engine_free.begin(), engine_free.end());
-        // A fetcher follows each sorter, or each engine has its own.
-        double& fetcher = grants ? engine_fetches[engine - engine_free.begin()]
-                                 : fetcher_free[t % sorters.size()];
+        Fetcher& fetcher = fetchers[grants ? engine - engine_free.begin() : t % sorters.size()];
         const double begun = sorter.begin(sort);
         double sorted = begun + sort.all - sort.first_step;
         double fetched = 0;
         if (grants) { // in turn
             sorted = sorter.complete(sort, begun);
             sorter.taken = std::max(sorted, granted);
-            granted = fetched = std::max(sorter.taken, fetcher);
+            granted = fetched = std::max(sorter.taken, fetcher.ready());
         } else {
-            fetched = std::max(begun + sort.first - sort.first_step, fetcher);
+            fetched = std::max(begun + sort.first - sort.first_step, fetcher.ready());
             sorter.free = std::max(sorted, fetched); // the next list waits for its turn
         }
         const double begin = std::max(*engine, fetched + model.memory_latency());
@@ -73,9 +103,7 @@ double schedule(const AnalyticModel& model, const std::vector<ScheduledTile>& ti
             over = std::max(over, used[u]);
         }
         *engine = over;
-        const double ahead =
-            cycles.walked > 0 ? std::min(1.0, model.places() / cycles.walked) : 1.0;
-        fetcher = over - ahead * (over - begin);
+        fetcher.take(tile.entries, cycles.walked, begin, over);
         end = std::max(end, over);
     }
     return end;

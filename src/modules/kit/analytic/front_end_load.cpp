@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "modules/kit/analytic/preparation_dates.hpp"
 #include "modules/kit/front_end/list_writes.hpp"
+#include "tlm/scattered_records.hpp"
 
 namespace degs {
 namespace {
@@ -30,6 +32,15 @@ double halvings(double keys, double most) {
         ++levels;
     }
     return levels;
+}
+
+/// Entries of the lists by chunk of Gaussians.
+std::vector<std::uint64_t> pairs_of_chunks(const FrameWorkload& frame, int chunk) {
+    std::vector<std::uint64_t> pairs((frame.gaussians + chunk - 1) / chunk, 0);
+    for (std::size_t s = 0; s < frame.splats.size(); ++s) {
+        pairs[frame.splats[s].id / chunk] += frame.tiles_touched[s];
+    }
+    return pairs;
 }
 
 } // namespace
@@ -70,31 +81,45 @@ ListWritingLoad list_writing(const FrameWorkload& frame, const TrafficConfig& tr
 
 PreparationCycles FrontEndLoad::preparation(const FrameWorkload& frame,
                                             std::size_t memory_unit) const {
-    const double gaussians = as_real(frame.gaussians), visible = as_real(frame.splats.size());
-    const double pairs = as_real(frame.tile_pairs()), chunk = projection.chunk;
-    const double sh = traffic.sh_size(frame.sh_degree);
-    const double alone = scattered_bytes(traffic.sh_size(frame.sh_degree), traffic.burst_bytes);
     const ListWritingLoad lists = list_writing(frame, traffic, binning);
-    PreparationCycles result;
-    result.bytes =
-        gaussians * traffic.geometry_size() +
-        (traffic.sh == ShReads::All ? gaussians * sh : std::min(visible * alone, gaussians * sh)) +
-        visible * traffic.splat_bytes + lists.bytes;
-    result.written = visible * traffic.splat_bytes + lists.bytes;
+    const double pairs = as_real(frame.tile_pairs());
+    const std::vector<std::uint64_t> pairs_of = pairs_of_chunks(frame, projection.chunk);
     const double each = projection.project_cycles(frame.projection.rule);
-    const double project = gaussians * each / projection.count;
-    const double shade = visible * projection.cycles_per_colour / projection.count;
-    const double bin =
-        std::max({std::ceil(gaussians / chunk), pairs / binning.pairs_per_cycle, lists.cycles});
-    result.binning = bin;
+    ScatteredRecords sh;
+    sh.stride = sh.bytes = traffic.sh_size(frame.sh_degree);
+    sh.burst = traffic.burst_bytes;
+    sh.neighbours_share = true;
+    PreparationDates dates(projection, binning, memory);
+    PreparationCycles result;
+    double projecting = 0, shading = 0;
+    for (std::size_t c = 0; c < pairs_of.size(); ++c) {
+        const std::uint64_t first = c * projection.chunk;
+        const std::uint64_t end = std::min(first + projection.chunk, frame.gaussians);
+        const std::uint32_t first_visible = frame.visible_among(first);
+        sh.numbers = frame.visible_of.data() + first_visible;
+        sh.count = frame.visible_among(end) - first_visible;
+        const double gaussians = as_real(end - first), visible = as_real(sh.count);
+        const double share = pairs == 0 ? 0 : as_real(pairs_of[c]) / pairs;
+        PreparationDates::Chunk chunk;
+        chunk.projecting = gaussians * each;
+        chunk.shading = visible * projection.cycles_per_colour;
+        chunk.binning = std::max(
+            {1.0, std::ceil(as_real(pairs_of[c]) / binning.pairs_per_cycle), lists.cycles * share});
+        const double written = visible * traffic.splat_bytes + lists.bytes * share;
+        const double coloured =
+            traffic.sh == ShReads::All ? gaussians * as_real(sh.bytes) : as_real(sh.total_bytes());
+        chunk.bytes = gaussians * traffic.geometry_size() + coloured + written;
+        dates.add(chunk);
+        projecting += chunk.projecting;
+        shading += chunk.shading;
+        result.binning += chunk.binning;
+        result.bytes += chunk.bytes;
+        result.written += written;
+    }
     result.binning_bytes = lists.sram_bytes;
-    // A chunk's write waits for the acknowledgement of one some writes earlier.
-    const double write = gaussians / chunk * memory.latency / binning.writes_in_flight;
-    const double moved = memory.cycles(result.bytes);
-    result.busy[kProjectionUnits] = std::max(project, shade);
-    result.busy[memory_unit] = moved;
-    result.time = std::max({project, shade, bin, write, moved}) + projection.latency_cycles +
-                  3 * memory.latency + chunk * each;
+    result.busy[kProjectionUnits] = std::max(projecting, shading) / projection.count;
+    result.busy[memory_unit] = memory.stream_cycles(result.bytes);
+    result.time = dates.end();
     return result;
 }
 
@@ -113,11 +138,13 @@ double FrontEndLoad::cycles_per_chunk() const {
     return memory.latency + memory.cycles(chunk_bytes());
 }
 
-double FrontEndLoad::tile_bytes(const CoarseTile& tile, double walked, double outside) const {
+double FrontEndLoad::tile_bytes(const CoarseTile& tile, double outside) const {
     return (1 + 2 * outside) * tile.entries() * traffic.list_entry_bytes +
-           fetched(tile.entries(), walked) *
-               scattered_bytes(traffic.splat_bytes, traffic.burst_bytes) +
            tile.pixels() * traffic.pixel_bytes;
+}
+
+double FrontEndLoad::record_bytes() const {
+    return scattered_bytes(traffic.splat_bytes, traffic.burst_bytes);
 }
 
 double FrontEndLoad::bytes_written(const CoarseTile& tile, double outside) const {
@@ -125,8 +152,13 @@ double FrontEndLoad::bytes_written(const CoarseTile& tile, double outside) const
            tile.pixels() * traffic.pixel_bytes;
 }
 
-double FrontEndLoad::fetched(double entries, double walked) const {
-    return std::min(entries, walked + as_real(places) / 2);
+double FrontEndLoad::fetched(const CoarseTile& tile, double walked, double array,
+                             double fetchers) const {
+    const double moved = fetchers * memory.cycles(tile_bytes(tile, 0) + walked * record_bytes());
+    const double idle = moved < array ? 1 - moved / array : 0;
+    const double filled = as_real(places);
+    const double asked = std::min(filled, 1.0 * fetching.chunk * fetching.chunks_in_flight);
+    return std::min(tile.entries(), walked + asked + (filled - asked) * idle);
 }
 
 std::vector<cost::Activity> FrontEndLoad::activity(const PreparationCycles& before,

@@ -17,14 +17,17 @@
 namespace degs {
 
 /// Memory as a rate and a latency, which is what `memory.model: bus` is. Refreshes, activations and
-/// turnarounds leave a share of the bus of LPDDR5, and a read waits for others as long as a read
-/// from a closed bank takes; both shares are measured (docs/analytic.md).
+/// turnarounds leave a share of the bus of LPDDR5, more of it to the long streams before the first
+/// tile, and a read waits for others as long as a read from a closed bank takes; all shares are
+/// measured (docs/analytic.md).
 struct MemoryRate {
-    static constexpr double kLpddr5Share = 0.7, kLpddr5Waiting = 2;
+    static constexpr double kLpddr5Share = 0.55, kLpddr5Streams = 0.82, kLpddr5Waiting = 2;
     double bytes_per_cycle = 0, latency = 0; ///< latency in cycles
+    double streaming = 1;                    ///< rate of long streams over bytes_per_cycle
     MemoryRate(const MainMemoryConfig& memory, double clock_ghz)
         : bytes_per_cycle(share(memory) * memory.peak_gb_per_s() / clock_ghz),
-          latency(latency_ns(memory) * clock_ghz) {}
+          latency(latency_ns(memory) * clock_ghz),
+          streaming(memory.model == MemoryModel::Lpddr5 ? kLpddr5Streams / kLpddr5Share : 1) {}
     static double share(const MainMemoryConfig& memory) {
         return memory.model == MemoryModel::Lpddr5 ? kLpddr5Share : 1;
     }
@@ -35,6 +38,7 @@ struct MemoryRate {
                    : memory.latency_ns;
     }
     double cycles(double bytes) const { return bytes / bytes_per_cycle; }
+    double stream_cycles(double bytes) const { return cycles(bytes) / streaming; }
     /// What writing takes of memory, the unit with that number, and of nothing else.
     TileCycles writes(double bytes, std::size_t unit) const {
         TileCycles written;
@@ -87,11 +91,15 @@ public:
     }
     /// Cycles in which a fetcher has the first `walked` splats of a list come from memory.
     double fetch_cycles(double walked) const;
-    /// Bytes of a tile: its list, which passes through memory `outside` times, the splats that are
-    /// fetched, its pixels.
-    double tile_bytes(const CoarseTile& tile, double walked, double outside) const;
+    /// Bytes of a tile's list, which passes through memory `outside` times, and of its pixels; and
+    /// those of them that are written.
+    double tile_bytes(const CoarseTile& tile, double outside) const;
     double bytes_written(const CoarseTile& tile, double outside) const;
-    double fetched(double entries, double walked) const;
+    double record_bytes() const; ///< of a splat that is fetched
+    /// Splats of a list that are fetched if its first `walked` are needed. A fetcher has always
+    /// asked for others, and fills its places with more of them as far as memory, of which it has
+    /// one share in `fetchers`, is faster than the array, which takes `array` cycles for the tile.
+    double fetched(const CoarseTile& tile, double walked, double array, double fetchers) const;
     /// What each block of the front end in the bill of materials does.
     std::vector<cost::Activity> activity(const PreparationCycles& before,
                                          const TileCycles& tiles) const;
@@ -103,23 +111,27 @@ public:
     PreparationCycles preparation(const FrameWorkload& frame) const override {
         return front_.preparation(frame, memory_unit_);
     }
-    double places() const override { return static_cast<double>(front_.places); }
+    Places places() const override {
+        const auto chunk = static_cast<std::uint64_t>(front_.fetching.chunk);
+        return {static_cast<std::size_t>(front_.places / chunk), static_cast<double>(chunk)};
+    }
     double memory_latency() const override { return front_.memory.latency; }
     TileCycles background(double pixels) const override {
         return front_.memory.writes(pixels * front_.traffic.pixel_bytes, memory_unit_);
     }
     const FrontEndLoad& front() const { return front_; }
     const MainMemoryConfig& main_memory() const override { return main_memory_; }
-    /// What a tile takes of the front end and of memory if `walked` splats of its list are fetched;
-    /// the array is left to the model.
-    TileCycles front_end_cycles(const CoarseTile& tile, double walked) const {
+    /// What a tile takes of the front end and of memory if the first `walked` splats of its list
+    /// are needed and the array works on them for `array` cycles; these are left to the model.
+    TileCycles front_end_cycles(const CoarseTile& tile, double walked, double array) const {
         TileCycles cycles;
         cycles.walked = walked;
         cycles.fragments = tile.fragments();
         const SortCycles sorted = sort_cycles(tile.entries(), walked);
-        cycles.bytes = front_.tile_bytes(tile, walked, sorted.outside);
+        cycles.fetched = front_.fetched(tile, walked, array, engines());
+        cycles.bytes =
+            front_.tile_bytes(tile, sorted.outside) + cycles.fetched * front_.record_bytes();
         cycles.written = front_.bytes_written(tile, sorted.outside);
-        cycles.fetched = front_.fetched(tile.entries(), walked);
         cycles.sorting = sorted.busy;
         constexpr int kReadAndWritten = 2;
         cycles.keys = kReadAndWritten * sorted.keys;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "modules/kit/analytic/front_end_load.hpp"
+#include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {
 namespace {
@@ -22,13 +23,14 @@ public:
     int sorters() const override { return sorters_; }
     SortCycles sort_cycles(double entries, double) const override {
         SortCycles sort;
-        sort.first_step = entries;
-        sort.first = sort.all = 2 * entries; // no splat is fetched before
+        sort.first_step = entries * cycles_per_entry;
+        sort.first = sort.all = 2 * sort.first_step; // no splat is fetched before
         sort.run = run_;
         return sort;
     }
     int engines() const override { return engines_; }
-    double memory_latency() const override { return 0; }
+    double memory_latency() const override { return fetching; }
+    Places places() const override { return fetched; }
     TileCycles background(double) const override { return {}; }
     double latency() const override { return 0; }
     int pes() const override { return 1; }
@@ -37,6 +39,9 @@ public:
         return {};
     }
     const MainMemoryConfig& main_memory() const override { return memory_; }
+
+    double cycles_per_entry = 1, fetching = 0;
+    Places fetched;
 
 private:
     int sorters_, engines_;
@@ -85,6 +90,44 @@ TEST(FrameSchedule, RunsWaitBehindACompleteList) {
         << "the list of one entry, sorted at 2001";
 }
 
+/// Splats come from memory after 1000 cycles, and lists are sorted in no time.
+double end_of_fetched(int engines, const AnalyticModel::Places& places,
+                      const std::vector<ScheduledTile>& tiles) {
+    SortingOnly model(1, engines);
+    model.cycles_per_entry = 0;
+    model.fetching = 1000;
+    model.fetched = places;
+    return schedule(model, tiles, {});
+}
+
+ScheduledTile tile_of(double entries, double walked, double time) {
+    ScheduledTile tile;
+    tile.entries = entries;
+    tile.cycles.walked = walked;
+    tile.cycles.time = time;
+    return tile;
+}
+
+// With two places a fetcher has two short lists on their way per latency, and long ones always.
+TEST(FrameSchedule, AFetcherIsAheadByItsPlaces) {
+    const std::vector<ScheduledTile> lists(8, tile_of(1, 1, 10));
+    EXPECT_EQ(end_of_fetched(1, {1, 1}, lists), 8 * 1010);
+    EXPECT_EQ(end_of_fetched(1, {2, 1}, lists), 4 * 1010 + 10);
+    EXPECT_EQ(end_of_fetched(1, {8, 1}, lists), 1000 + 8 * 10);
+    EXPECT_EQ(end_of_fetched(2, {1, 1}, lists), 4 * 1010) << "a fetcher for each engine";
+}
+
+// The first splat of a list has been taken after 200 of 400 cycles.
+TEST(FrameSchedule, AFetcherFillsItsPlacesWithWhatNobodyTakes) {
+    const auto end_of_two = [](std::size_t places, double entries) {
+        return end_of_fetched(1, {places, 1}, {tile_of(entries, 2, 400), tile_of(1, 1, 10)});
+    };
+    EXPECT_EQ(end_of_two(2, 2), 1000 + 200 + 1000 + 10);
+    EXPECT_EQ(end_of_two(2, 3), 1000 + 400 + 1000 + 10) << "the third splat has the free place";
+    EXPECT_EQ(end_of_two(3, 9), 1000 + 400 + 1000 + 10);
+    EXPECT_EQ(end_of_two(3, 2), 1000 + 400 + 10);
+}
+
 FrontEndLoad front_of(std::uint64_t capacity) {
     MainMemoryConfig config;
     MemoryRate rate(config, 1);
@@ -94,6 +137,30 @@ FrontEndLoad front_of(std::uint64_t capacity) {
     front.traffic.list_entry_bytes = 8;
     front.sort_capacity = capacity;
     return front;
+}
+
+// 8 chunks of 16 splats are on their way, and 32 have places. Memory moves a record per cycle; the
+// list and the pixels of the tile are small.
+TEST(Fetched, PlacesFillWhileMemoryIsFasterThanTheArray) {
+    GaussianCloud cloud;
+    for (int i = 0; i < 2000; ++i) {
+        test::add_gaussian(cloud, {0, 0, 4 + 0.001F * static_cast<float>(i)}, glm::vec3(0.2F),
+                           test::kNoTurn, 0.01F, {1, 1, 1});
+    }
+    const FrameWorkload frame =
+        make_frame_workload(cloud, test::make_camera(8, 8, 10), 8, TileMode::Box);
+    CoarseTile tile(frame, {8, 1});
+    tile.begin(0, {});
+    ASSERT_EQ(tile.entries(), 2000);
+    FrontEndLoad front = front_of(1024);
+    front.places = 32 * 16;
+    front.traffic.splat_bytes = front.traffic.burst_bytes = 64;
+    front.traffic.list_entry_bytes = front.traffic.pixel_bytes = 0;
+    EXPECT_NEAR(front.fetched(tile, 1000, 1e9, 1), 1000 + 512, 1e-3);
+    EXPECT_EQ(front.fetched(tile, 1000, 2000, 1), 1000 + 128 + 192);
+    EXPECT_EQ(front.fetched(tile, 1000, 1000, 1), 1000 + 128);
+    EXPECT_EQ(front.fetched(tile, 1000, 2000, 2), 1000 + 128) << "half of the memory";
+    EXPECT_EQ(front.fetched(tile, 1900, 1e9, 1), 2000);
 }
 
 // 16 runs of 64 keys, each in 6 passes of 2 ways, are merged in 4 passes through memory, and each
