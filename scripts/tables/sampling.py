@@ -125,7 +125,8 @@ def within_cost():
     for (name, size), views in found.items():
         count, cells = medians(views)
         rows.append([f"{name}, {size}", f"{count} of {len(views)}",
-                     *([f"{tiles:.2f}, {time:.2f}" for tiles, time in cells] or [""] * len(ERRORS)), f"{max(longest(*view) for view in views):.2f}"])
+                     *([f"{tiles:.2f}, {time:.2f}" for tiles, time in cells] or [""] * len(ERRORS)),
+                     f"{max(longest(*view) for view in views):.2f}"])
     return markdown(["design", "views", *(f"±{error} %: tiles, time" for error in ERRORS), "longest of all"], rows)
 
 

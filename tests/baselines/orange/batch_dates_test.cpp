@@ -50,9 +50,9 @@ TEST(BatchDates, ProductsForNothing) {
     EXPECT_EQ(tile_of(config, 300, 1).formed, 300);
 }
 
-TEST(BatchDates, AnEndlessTileTakesItsWholeList) {
+TEST(BatchDates, ATileHasAtLeastASplatAndNoMoreBatchesThanItsList) {
     const Config config = core_without_fill();
-    EXPECT_EQ(tile_of(config, 0, 0).formed, 1) << "a list that is not empty is meant";
+    EXPECT_EQ(tile_of(config, 0, 0).formed, 1);
     EXPECT_EQ(tile_of(config, 100, 7).cycles, tile_of(config, 100, 1).cycles);
 }
 

@@ -131,7 +131,9 @@ TEST_P(Analytic, TakesAnEmptyFrameAndASinglePixel) {
           std::vector<std::string>{"--scene", "synthetic:object,gaussians=1", "--width", "2000"}}) {
         const json report = analytic_of(analytic_config(GetParam()), view);
         EXPECT_GT(cycles_of(report), 0);
-        EXPECT_LT(cycles_of(report), 1e7);
+        // Each of its many tiles of 8 px is a product that fills and drains the array.
+        const double most = GetParam() == "orange-o1" ? 1e7 : 1e6;
+        EXPECT_LT(cycles_of(report), most);
     }
 }
 
